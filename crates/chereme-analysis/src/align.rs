@@ -49,6 +49,7 @@ const SIGNAL_GAP_SECONDS: f64 = 0.25;
 pub fn find_signal_shift(first: &TimedSignal, second: &TimedSignal, limit: f64) -> Option<SignalShift> {
     let length = |signal: &TimedSignal| Some(signal.points.last()?.0 - signal.points.first()?.0);
     let (a, b) = (length(first)?, length(second)?);
+    // A larger shift leaves no time that both signals cover.
     let limit = limit.clamp(0.0, a.max(b) + MIN_SHARED_SECONDS);
     let work = |step: f64| (a / step) * (2.0 * limit / step);
     let mut step = SIGNAL_STEP_SECONDS;
@@ -61,6 +62,7 @@ pub fn find_signal_shift(first: &TimedSignal, second: &TimedSignal, limit: f64) 
     let between = second.points.first()?.0 - start;
     let shorter = a.min(b);
     let least_seconds = MIN_SHARED_SECONDS.min(shorter / 2.0).max(shorter * MIN_SHARED_RATIO);
+    // A correlation of fewer than eight samples says nothing.
     let least = (least_seconds / step).max(8.0) as usize;
     let reach = (limit / step).round() as i64;
     // Sample `n` of the second signal meets sample `n + lag` of the first.
@@ -68,6 +70,7 @@ pub fn find_signal_shift(first: &TimedSignal, second: &TimedSignal, limit: f64) 
     let lags: Vec<i64> = (base - reach..=base + reach).collect();
     let all: Vec<f64> = lags
         .iter()
+        // A shift with too little shared time cannot win.
         .map(|lag| lagged_correlation(&left, &right, *lag, least).unwrap_or(-1.0))
         .collect();
     let best = (0..all.len()).max_by(|a, b| all[*a].total_cmp(&all[*b]))?;
@@ -97,6 +100,7 @@ fn summit(all: &[f64], at: usize) -> f64 {
         return 0.0;
     };
     let bend = before - 2.0 * all[at] + after;
+    // A neighbour without a correlation, or no maximum at all, leaves nothing to interpolate.
     if before <= -1.0 || after <= -1.0 || bend >= 0.0 {
         return 0.0;
     }
@@ -116,6 +120,7 @@ impl TimedSignal {
             }
             let (from, a) = *self.points.get(next)?;
             let Some(&(to, b)) = self.points.get(next + 1) else {
+                // The last point holds for one step.
                 return (time - from <= step).then_some(a);
             };
             if to - from > SIGNAL_GAP_SECONDS {
@@ -151,6 +156,7 @@ fn lagged_correlation(first: &[Option<f64>], second: &[Option<f64>], lag: i64, l
     let spread = |sum: f64, squares: f64| (squares - sum * sum / n).max(0.0);
     let (own, other) = (spread(a, aa), spread(b, bb));
     let scale = (own * other).sqrt();
+    // The spread of a signal that never changes is rounding.
     let flat = own <= 1e-12 * aa || other <= 1e-12 * bb;
     (!flat && scale > 0.0).then(|| (ab - a * b / n) / scale)
 }

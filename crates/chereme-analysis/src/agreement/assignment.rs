@@ -66,6 +66,7 @@ struct AssignmentWork<'a> {
 impl AssignmentWork<'_> {
     /// Adds a row to the assignment of least cost of the rows before it.
     fn insert_assignment_row(&mut self, row: usize) {
+        // Dijkstra's search needs costs of at least 0, so that the price starts at the cheapest choice.
         let costs = self.edges[row].iter();
         let cheapest = costs.map(|(column, cost)| cost - self.column_price[*column]);
         self.row_price[row] = cheapest.fold(0.0, f64::min);
@@ -80,6 +81,7 @@ impl AssignmentWork<'_> {
                     break;
                 }
                 AssignmentGoal::Column(column) => {
+                    // A longer way to a column that was reached by a shorter one since.
                     if reached > self.distance[column] {
                         continue;
                     }
@@ -94,12 +96,14 @@ impl AssignmentWork<'_> {
         }
         if let Some((total, goal)) = end {
             self.row_price[row] += total;
+            // Prices of settled columns keep pairs in use at a reduced cost of 0.
             for (column, next, reached) in settled {
                 self.column_price[column] -= total - reached;
                 self.row_price[next] += total - reached;
             }
             self.shift_assigned_rows(row, goal);
         }
+        // Only these have changed: to clear all columns for each row would take squared time.
         for column in touched {
             self.distance[column] = f64::INFINITY;
         }
@@ -116,6 +120,7 @@ impl AssignmentWork<'_> {
         let price = self.row_price[row];
         heap.push(Reverse(GoalDistance(reached - price, AssignmentGoal::Alone(row))));
         for &(column, cost) in &self.edges[row] {
+            // Rounding may leave a reduced cost just below 0.
             let through = reached + (cost - price - self.column_price[column]).max(0.0);
             if self.column_of[row] != Some(column) && through < self.distance[column] {
                 if self.distance[column].is_infinite() {

@@ -108,6 +108,7 @@ pub fn align_continuum(
         let starts = group.iter().zip(tiers);
         starts.filter_map(|(at, tier)| Some(tier[(*at)?].start)).min()
     };
+    // Groups that begin together are sorted by their units, so that the search leaves no trace.
     groups.sort_by_cached_key(|group| (begins(group), group.clone()));
     let cost = groups.iter().map(|group| group_cost(group, tiers, costs)).sum();
     Ok(UnitAlignment {
@@ -219,6 +220,7 @@ fn search_unit_groups(
             of_unit[*member].push((members.clone(), *cost, nth));
         }
     }
+    // Cheap groups first, so that a good cover is found early and cuts off the rest.
     for own in &mut of_unit {
         own.sort_by(|a, b| {
             let share = |candidate: &(Vec<usize>, f64, usize)| candidate.1 / candidate.0.len() as f64;
@@ -226,6 +228,7 @@ fn search_unit_groups(
         });
     }
     let mut chosen = Vec::new();
+    // Components share no unit, so that each is covered alone.
     for component in connect_grouped_units(&of_unit) {
         let mut search = GroupCoverSearch {
             of_unit: &of_unit,
@@ -261,6 +264,7 @@ fn extend_unit_group(
         }
         return Ok(());
     }
+    // A group may go without this annotator.
     extend_unit_group(group, from + 1, tiers, costs, groups, steps)?;
     let annotators = tiers.len() as f64;
     let pairs = annotators * (annotators - 1.0) / 2.0;
@@ -339,6 +343,7 @@ impl GroupCoverSearch<'_> {
         for (members, own, nth) in &all[self.order[at]] {
             let freed: f64 = members.iter().map(|member| self.least[*member]).sum();
             let is_free = members.iter().all(|member| !self.covered[*member]);
+            // Covers that differ by rounding alone are not searched again.
             if !is_free || cost + own + bound - freed >= self.best - 1e-12 {
                 continue;
             }
@@ -433,6 +438,7 @@ pub fn measure_gamma_agreement<E: From<UndefinedAgreement>>(
         of_values.extend(cat.weighted_mean_value());
         if let (true, Some(precision)) = (disorders.len() == wanted, sampling.precision) {
             let (mean, deviation) = mean_and_deviation(&disorders);
+            // The count that makes the 95 % interval of the mean as narrow as asked, at the spread so far.
             let needed = (1.96 * deviation / (mean * precision)).powi(2).ceil();
             wanted = wanted.max(needed.min(MAX_GAMMA_SAMPLES as f64) as usize);
         }
@@ -457,6 +463,7 @@ pub fn measure_gamma_agreement<E: From<UndefinedAgreement>>(
         observed: seen,
         expected,
         samples: disorders.len(),
+        // An expected disorder that may be 0 leaves gamma without a lower bound.
         interval: (is_chance && expected > error).then(|| BootstrapInterval {
             low: gamma_value(expected - error),
             high: gamma_value(expected + error),
@@ -534,6 +541,7 @@ impl RandomUnitSource {
                 let first = tier
                     .first()
                     .map(|unit| (unit.start - continuum.continuum_start()) as f64);
+                // A tier that begins with the continuum has no gap before it.
                 gaps.extend(first.filter(|gap| *gap > 0.0));
                 gaps.extend(tier.windows(2).map(|pair| (pair[1].start - pair[0].end) as f64));
                 lengths.extend(tier.iter().map(|unit| unit.unit_length() as f64));
@@ -562,20 +570,24 @@ impl RandomUnitSource {
     fn draw_random_units(&self, like: &AnnotationContinuum, random: &mut RandomNumbers) -> AnnotationContinuum {
         let counts: Vec<f64> = like.annotator_tiers().iter().map(|tier| tier.len() as f64).collect();
         let (mean, deviation) = mean_and_deviation(&counts);
+        // A wide spread of counts must not draw many times the real units.
         let most = 2.0 * counts.iter().sum::<f64>();
         let tier = |_: &Vec<AnnotatedUnit>| {
             let count = (mean + deviation * random.random_normal()).clamp(1.0, most) as usize;
             let mut end = 0.0;
             let unit = |_| {
                 let start = end + self.gap.0 + self.gap.1 * random.random_normal();
+                // A normal distribution also draws negative lengths.
                 let length = (self.length.0 + self.length.1 * random.random_normal()).abs();
                 end = start + length.max(1.0);
                 let share = random.random_share();
                 let nth = self.values.partition_point(|(_, upto)| *upto < share);
+                // Rounding may leave the last share just below 1.
                 let value_entry = self.values.get(nth).or(self.values.last());
                 let value = value_entry.map_or(0, |entry| entry.0);
                 AnnotatedUnit::new(
                     start.round() as i64,
+                    // A unit that rounding leaves without length would be dropped.
                     (end.round() as i64).max(start.round() as i64 + 1),
                     value,
                 )

@@ -156,6 +156,7 @@ impl AgreementCounts {
     pub fn counted_nominal_alpha(&self) -> AgreementMeasure {
         let (raw, values) = (self.counted_raw_agreement()?, 2.0 * self.total_pair_count());
         let both = self.rows.iter().zip(&self.columns);
+        // Krippendorff's chance draws two values without putting the first back.
         let equal: f64 = both.map(|(a, b)| (a + b) * (a + b - 1.0)).sum();
         let expected = 1.0 - equal / (values * (values - 1.0));
         if expected.abs() < 1e-12 {
@@ -166,6 +167,7 @@ impl AgreementCounts {
 }
 
 fn gwet_of(raw: f64, shares: impl Iterator<Item = f64>) -> AgreementMeasure {
+    // A value that nobody used is not among the q.
     let used: Vec<f64> = shares.filter(|share| *share > 0.0).collect();
     if used.len() < 2 {
         return Err(UndefinedAgreement::OneValue);
@@ -180,6 +182,7 @@ fn gwet_of(raw: f64, shares: impl Iterator<Item = f64>) -> AgreementMeasure {
 /// [`UndefinedAgreement::NoPair`], [`UndefinedAgreement::OneValue`].
 pub fn krippendorff_alpha(items: &[AnnotatedItem], scale: AlphaScale<'_>) -> AgreementMeasure {
     let several = |item: &&AnnotatedItem| item.iter().flatten().count() >= 2;
+    // A value without a partner in its item has nothing to agree with.
     let items: Vec<AnnotatedItem> = items.iter().filter(several).cloned().collect();
     if items.is_empty() {
         return Err(UndefinedAgreement::NoPair);
@@ -195,6 +198,7 @@ pub fn krippendorff_alpha(items: &[AnnotatedItem], scale: AlphaScale<'_>) -> Agr
             AlphaScale::Ordinal => {
                 let ends = |value: usize| counts.get(&value).copied().unwrap_or(0.0);
                 let between: f64 = counts.range(a.min(b)..=a.max(b)).map(|(_, n)| n).sum();
+                // The two values themselves count by half.
                 (between - (ends(a) + ends(b)) / 2.0).powi(2)
             }
             AlphaScale::Distance(distance) => distance(a, b),
@@ -207,9 +211,11 @@ pub fn krippendorff_alpha(items: &[AnnotatedItem], scale: AlphaScale<'_>) -> Agr
         for (nth, a) in values.iter().enumerate() {
             sum += values[nth + 1..].iter().map(|b| delta(*a, *b)).sum::<f64>();
         }
+        // An item of many values makes many pairs; divided so, every value weighs the same.
         observed += 2.0 * sum / (values.len() - 1) as f64;
     }
     let mut expected = 0.0;
+    // Each pair of values stands for both of its orders.
     for (a, of_a) in &counts {
         for (b, of_b) in counts.range(a + 1..) {
             expected += 2.0 * of_a * of_b * delta(*a, *b);

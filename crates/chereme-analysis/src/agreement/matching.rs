@@ -37,6 +37,7 @@ pub fn overlap_ratio(first: &[AnnotatedUnit], second: &[AnnotatedUnit]) -> Agree
             sum += unit.shared_unit_time(other) as f64 / extent as f64;
         }
     }
+    // A matched pair counts once in the mean; units alone add a ratio of 0.
     let all = first.len() + second.len() - matched;
     if all == 0 {
         return Err(UndefinedAgreement::BothEmpty);
@@ -62,6 +63,7 @@ impl<'a> TimeSortedUnits<'a> {
     }
 
     fn find_overlapping_units(&self, unit: &AnnotatedUnit) -> impl Iterator<Item = usize> + use<'_> {
+        // The latest ends rise even if units of one tier overlap, so that they can be searched.
         let first = self.ends.partition_point(|end| *end <= unit.start);
         let last = self.units.partition_point(|other| other.start < unit.end);
         let unit = *unit;
@@ -210,6 +212,7 @@ impl HolleReinTable {
         let scale = |wanted: &[f64], own: &mut [f64], other: &[f64]| {
             let sum: f64 = other.iter().sum();
             for (at, (own, wanted)) in own.iter_mut().zip(wanted).enumerate() {
+                // The last cell begins near 0 instead of 1, because both without a unit is no item.
                 let target_sum = if at == last {
                     sum - other[last] * (1.0 - NEARLY_ZERO)
                 } else {
@@ -222,6 +225,7 @@ impl HolleReinTable {
             scale(&rows, &mut of_rows, &of_columns);
             scale(&columns, &mut of_columns, &of_rows);
         }
+        // Both without a unit is no agreement.
         let diagonal = of_rows[..last].iter().zip(&of_columns);
         Ok(diagonal.map(|(a, b)| a * b).sum::<f64>() / total)
     }

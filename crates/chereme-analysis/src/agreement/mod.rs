@@ -137,6 +137,7 @@ impl AnnotationContinuum {
             start = start.min(unit.start);
             end = end.max(unit.end);
         }
+        // A stretch that is given backwards is empty.
         let end = end.max(start);
         Self { start, end, tiers }
     }
@@ -187,6 +188,7 @@ impl AnnotationContinuum {
 /// Returns `(observed - expected) / (1 - expected)`.
 fn beyond_chance(observed: f64, expected: f64) -> AgreementMeasure {
     let room = 1.0 - expected;
+    // Chance alone agrees everywhere, and nothing is left to explain.
     if room.abs() < 1e-12 {
         return Err(UndefinedAgreement::OneValue);
     }

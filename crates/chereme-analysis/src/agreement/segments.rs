@@ -48,8 +48,10 @@ pub fn count_segmentation_edits(first: &SegmentMasses, second: &SegmentMasses, n
     let (a, b) = (boundary_places(first), boundary_places(second));
     let mut near_pairs: Vec<(usize, usize, usize)> = Vec::new();
     for (at, place) in a.iter().enumerate() {
+        // Boundaries rise, so that only those around the place are compared.
         let from = b.partition_point(|boundary| boundary + near <= *place);
         for (other, it) in b.iter().enumerate().skip(from) {
+            // Equal places match even if `near` is 0.
             if *it >= place + near.max(1) {
                 break;
             }
@@ -67,6 +69,7 @@ pub fn count_segmentation_edits(first: &SegmentMasses, second: &SegmentMasses, n
             continue;
         }
         (of_a[at], of_b[other]) = (true, true);
+        // A pair takes the place of one addition on either side.
         edits.additions -= 2;
         match distance {
             0 => edits.matches += 1,

@@ -98,8 +98,10 @@ pub struct SpanComparison {
 /// Returns the frames of the grid for a span in microseconds.
 #[must_use]
 pub fn grid_frames(start_us: i64, end_us: i64) -> Range<i64> {
+    // To the nearest frame, before 0 too.
     let frame = |micros: i64| (micros + GRID_FRAME_US / 2).div_euclid(GRID_FRAME_US);
     let start = frame(start_us);
+    // A span shorter than a frame still covers one.
     start..frame(end_us).max(start + 1)
 }
 
@@ -116,6 +118,7 @@ pub fn compare_span_lists(first: &[Range<i64>], second: &[Range<i64>]) -> SpanCo
             .map(|pair| of(&second[pair.second]) - of(&first[pair.first]))
             .collect()
     };
+    // In pieces, because overlapping spans of one list would count a frame twice.
     let shared: i64 = covered_pieces(first)
         .iter()
         .flat_map(|one| {
@@ -261,6 +264,7 @@ fn match_spans_by_overlap(first: &[Range<i64>], second: &[Range<i64>]) -> Vec<Ma
             });
         }
     }
+    // A stable sort keeps equal overlaps in the order of the lists.
     pairs.sort_by(|one, other| other.overlap.total_cmp(&one.overlap));
     let (mut in_first, mut in_second) = (vec![false; first.len()], vec![false; second.len()]);
     pairs.retain(|pair| {
@@ -278,6 +282,7 @@ fn boundary_positions(spans: &[Range<i64>]) -> Vec<f64> {
     let mut frames: Vec<i64> = spans.iter().flat_map(|span| [span.start, span.end]).collect();
     frames.sort_unstable();
     frames.dedup();
+    // An end and a begin in neighbouring frames are one boundary.
     let runs = frames.chunk_by(|one, next| next - one == 1);
     runs.map(|run| (run[0] + run[run.len() - 1]) as f64 / 2.0).collect()
 }

@@ -76,6 +76,7 @@ fn observed(tiers: &[Vec<AnnotatedUnit>], length: f64) -> f64 {
         }
     }
     let annotators = tiers.len() as f64;
+    // Each pair of annotators stands for both of its orders.
     2.0 * sum / (annotators * (annotators - 1.0) * length * length)
 }
 
@@ -86,6 +87,7 @@ fn observed_unit_difference(first: &[AnnotatedUnit], second: &[AnnotatedUnit]) -
     let mut sum = 0.0;
     let mut begin = 0;
     for unit in first {
+        // Units rise by time: what ends before this one cannot meet a later one.
         while begin < second.len() && second[begin].end <= unit.start {
             begin += 1;
         }
@@ -118,6 +120,7 @@ fn expected_unit_difference(tiers: &[Vec<AnnotatedUnit>], continuum: &Annotation
         }
         gaps.push(continuum.continuum_end() - end);
     }
+    // Units that touch or overlap leave no gap between them.
     gaps.retain(|gap| *gap > 0);
     gaps.sort_unstable();
     // The sums of all gaps from each on.
@@ -131,8 +134,10 @@ fn expected_unit_difference(tiers: &[Vec<AnnotatedUnit>], continuum: &Annotation
         let l = unit.unit_length() as f64;
         let from = gaps.partition_point(|gap| *gap < unit.unit_length());
         let fitting = (gaps.len() - from) as f64;
+        // Krippendorff's closed form for two units of one length that chance lays over each other.
         let others = (count as f64 - 1.0) / 3.0;
         sum += others * (2.0 * l.powi(3) - 3.0 * l * l + l);
+        // A gap of length `h` holds the unit in `h - l + 1` places.
         sum += l * l * (sums[from] - fitting * (l - 1.0));
         own += l * (l - 1.0);
     }
@@ -207,6 +212,7 @@ pub struct FrameAgreement {
 pub fn measure_frame_agreement(continuum: &AnnotationContinuum, frame: i64) -> FrameAgreement {
     let frame = frame.max(1);
     let annotators = continuum.annotator_tiers().len();
+    // The frames that start before a time; a frame has the value at its start.
     let first = |time: i64| (time - continuum.continuum_start() + frame - 1).div_euclid(frame);
     let mut counts: Vec<BTreeMap<Option<usize>, f64>> = vec![BTreeMap::new(); annotators];
     let (mut all, mut equal) = (0.0, 0.0);
@@ -242,6 +248,7 @@ pub fn measure_frame_agreement(continuum: &AnnotationContinuum, frame: i64) -> F
     }
     let values: f64 = pooled.values().sum();
     let alike: f64 = pooled.values().map(|count| count * (count - 1.0)).sum();
+    // A unit between the starts of two frames leaves a count of 0.
     let alpha = match pooled.values().filter(|count| **count > 0.0).count() {
         0 | 1 => Err(UndefinedAgreement::OneValue),
         _ => below_chance(
@@ -320,10 +327,12 @@ impl IntersectionShares {
         let annotators = continuum.annotator_tiers().len();
         for slice in slices(continuum) {
             let length = (slice.end - slice.start) as f64;
+            // Every annotator is compared with all others, so that equal slices add up to their length.
             let part = length / (annotators as f64 - 1.0);
             for (nth, value) in slice.values.iter().enumerate() {
                 *shares.lengths.entry(*value).or_default() += length;
                 shares.total += length;
+                // A gap counts as units of length 1, whose squares add up to its length.
                 if value.is_none() {
                     *shares.own.entry(None).or_default() += length;
                 }
