@@ -84,6 +84,7 @@ impl FaceModel {
         }
         let mut rigid: Vec<DVec3> = complete_frames[0][RIGID_HEAD_MARKERS].to_vec();
         let mut motions = Vec::new();
+        // Each round fits to the mean of the last, which no single frame's shape distorts.
         for _ in 0..3 {
             motions.clear();
             let mut sum = vec![DVec3::ZERO; rigid.len()];
@@ -110,6 +111,7 @@ impl FaceModel {
                 .map(|sum| usual.apply_rigid_motion(sum / count))
                 .collect();
         }
+        // The last round has moved the rigid set once more.
         for (motion, frame) in motions.iter_mut().zip(&complete_frames) {
             let seen: Vec<Option<DVec3>> = frame[RIGID_HEAD_MARKERS].iter().copied().map(Some).collect();
             *motion = RigidMotion::fit_rigid_motion(&rigid, &seen).map_err(|_| ModelError::Singular)?;
@@ -119,6 +121,7 @@ impl FaceModel {
 
     fn learn_face_shapes(rigid: Vec<DVec3>, whole: &[Vec<DVec3>], motions: &[RigidMotion]) -> Result<Self, ModelError> {
         let mut weights = vec![1.0; FACE_MARKER_COUNT];
+        // Half of the head's motion is where the search for each weight starts.
         weights[THROAT_MARKERS].fill(0.5);
         let mut directions = Vec::new();
         let mut mean = Vec::new();
@@ -154,6 +157,7 @@ impl FaceModel {
                     along += displacement.dot(frame[marker] - still);
                     square += displacement.length_squared();
                 }
+                // A head that never moves says nothing about the throat.
                 if square > 1e-9 {
                     weights[marker] = (along / square).clamp(0.0, 1.0);
                 }
@@ -166,11 +170,13 @@ impl FaceModel {
             weights,
             missed: vec![0.0; FACE_MARKER_COUNT],
         };
+        // Some 500 frames give the error well enough.
         let step = (whole.len() / 500).max(1);
         let mut count: f64 = 0.0;
         for frame in whole.iter().step_by(step) {
             let seen: FaceMarkerFrame = frame.iter().copied().map(Some).collect();
             if let Some((motion, own)) = model.estimate_face_parameters(&seen) {
+                // Three coordinates, so that the error is that along one axis.
                 count += 3.0;
                 let predicted = model.place_face_markers(&motion, &own);
                 for ((missed, at), predicted) in model.missed.iter_mut().zip(frame).zip(predicted) {
@@ -227,6 +233,7 @@ impl FaceModel {
             }
         }
         for k in 0..keep {
+            // The prior of the parameters, as in the estimate.
             left[(k, k)] += 1.0;
         }
         let factor = left.cholesky_factor()?;

@@ -104,6 +104,7 @@ impl HandModel {
         let terms = HandTerms::of_a_hand();
         // A first regression on the angles themselves shows how far each of them moves the markers.
         let first = PrincipalComponents::fit_principal_components(&angles, 12, 6)?;
+        // Some 1,500 frames teach the levers; the regression that counts uses all of them.
         let step = (local.len() / 1500).max(1);
         let some: Vec<usize> = (0..local.len()).step_by(step).collect();
         let filled: Vec<Vec<f64>> = some.iter().map(|n| fill_missing_angles(&angles[*n], &first)).collect();
@@ -175,6 +176,7 @@ impl HandModel {
             Ok(rigid) => rigid,
             Err(_) => before?.forearm,
         };
+        // Rotation and translation of the forearm stand before the parameters.
         let size = 6 + keep;
         let mut factor = None;
         for _ in 0..steps {
@@ -198,12 +200,14 @@ impl HandModel {
                     }
                 }
             }
+            // The prior of each parameter is its variance in training, which holds hidden markers in place.
             for k in 0..keep {
                 let variance = self.components.variances[k].max(1e-9);
                 left[(6 + k, 6 + k)] += 1.0 / variance;
                 right[6 + k] -= parameters[k] / variance;
             }
             for k in 0..6 {
+                // The forearm is free; the trace only keeps the equations solvable.
                 left[(k, k)] += 1e-9;
             }
             let normal_factor = left.cholesky_factor()?;
@@ -215,6 +219,7 @@ impl HandModel {
                 *own += step;
             }
             factor = Some(normal_factor);
+            // A hundredth of the unit of a component moves no marker visibly.
             if step[6..].iter().all(|step| step.abs() < 0.01) {
                 break;
             }
@@ -248,6 +253,7 @@ impl HandModel {
     fn read_off(&self, frame: &HandMarkerFrame) -> Vec<f64> {
         let angles = self.angles_of(frame);
         let mut estimated_angles = self.levers.unscale_hand_angles(&self.components.mean);
+        // Hidden angles follow from the components, which in turn depend on them.
         for _ in 0..6 {
             for (own, angle) in estimated_angles.iter_mut().zip(&angles) {
                 if angle.is_finite() {

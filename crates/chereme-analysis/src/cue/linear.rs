@@ -50,6 +50,7 @@ impl DenseMatrix {
     pub fn add_outer(&mut self, x: &[f64], y: &[f64], weight: f64) {
         for (row, x) in self.data.chunks_exact_mut(self.cols.max(1)).zip(x) {
             let factor = weight * x;
+            // Rows with many zeros are common, and skipping them costs one comparison.
             if factor != 0.0 {
                 for (own, y) in row.iter_mut().zip(y) {
                     *own += factor * y;
@@ -85,6 +86,7 @@ impl DenseMatrix {
     pub fn solve_factored(&self, b: &[f64]) -> Vec<f64> {
         let n = self.rows;
         let mut x = b.to_vec();
+        // Forwards with the lower triangle, then backwards with its transpose.
         for i in 0..n {
             let below: f64 = (0..i).map(|k| self[(i, k)] * x[k]).sum();
             x[i] = (x[i] - below) / self[(i, i)];
@@ -115,6 +117,7 @@ pub fn symmetric_eigenvectors(symmetric: &DenseMatrix) -> (Vec<f64>, DenseMatrix
             .map(|at| a[at] * a[at])
             .sum();
         let size: f64 = (0..n).map(|i| a[(i, i)] * a[(i, i)]).sum();
+        // NaNs would never converge.
         if off.is_nan() || off <= 1e-24 * size {
             break;
         }
@@ -146,12 +149,14 @@ pub fn symmetric_eigenvectors(symmetric: &DenseMatrix) -> (Vec<f64>, DenseMatrix
 
 /// Rotates rows and columns `p` and `q` so that their off-diagonal entry vanishes; the rows of `v` are rotated too.
 fn rotate(a: &mut DenseMatrix, v: &mut DenseMatrix, p: usize, q: usize) {
+    // A Jacobi rotation; below this the division would overflow.
     let mixed = a[(p, q)];
     if mixed.abs() < 1e-300 {
         return;
     }
     let theta = (a[(q, q)] - a[(p, p)]) / (2.0 * mixed);
     let tangent = theta.signum() / (theta.abs() + (theta * theta + 1.0).sqrt());
+    // Equal diagonal entries take a turn of 45 degrees, where `signum` of -0 would turn the other way.
     let t = if theta == 0.0 { 1.0 } else { tangent };
     let c = 1.0 / (t * t + 1.0).sqrt();
     let s = t * c;

@@ -50,6 +50,7 @@ impl PrincipalComponents {
             })
             .collect();
         let mut model = Self::of_whole(&filled, keep);
+        // Without missing numbers the first components are final.
         for _ in 0..if is_complete { 0 } else { rounds } {
             for (own, row) in filled.iter_mut().zip(rows) {
                 let predicted = model.rebuild_component_row(&model.project_component_row(own));
@@ -160,6 +161,7 @@ pub fn find_guided_components(rows: &[Vec<f64>], subsets: &[Vec<usize>]) -> Resu
         let first = PrincipalComponents::of_whole(&part, 1);
         let mut p: Vec<f64> = part.iter().map(|row| first.project_component_row(row)[0]).collect();
         let sd = (p.iter().map(|x| x * x).sum::<f64>() / p.len() as f64).sqrt();
+        // A subset without variance that is left leads nothing.
         if sd < 1e-12 {
             directions.push(vec![0.0; width]);
             continue;
@@ -172,6 +174,7 @@ pub fn find_guided_components(rows: &[Vec<f64>], subsets: &[Vec<usize>]) -> Resu
                 *b += p * x / squares;
             }
         }
+        // The next predictors see only what this one leaves unexplained.
         for (row, p) in left.iter_mut().zip(&p) {
             for (x, b) in row.iter_mut().zip(&b) {
                 *x -= p * b;

@@ -76,6 +76,7 @@ impl RigidMotion {
                 }
             }
         }
+        // About a line any rotation fits as well as any other.
         if is_line(&covariance) {
             return Err(RigidError::Line);
         }

@@ -133,6 +133,7 @@ fn bridged_bends(hand: &[cue_hand::HandMarkerFrame], most: usize) -> Vec<Option<
     for k in 0..HAND_BEND_COUNT {
         let finite_bend = |row: &[f64; HAND_BEND_COUNT]| row[k].is_finite().then_some([row[k]]);
         let mut column: Vec<Option<[f64; 1]>> = rows.iter().map(finite_bend).collect();
+        // Each number alone: a hidden marker spoils few of them.
         bridge_row_gaps(&mut column, most, mixed_numbers);
         for (row, number) in rows.iter_mut().zip(column) {
             row[k] = number.map_or(f64::NAN, |[number]| number);
@@ -173,6 +174,7 @@ pub fn rigid_set<'a>(frames: impl Iterator<Item = &'a cue_face::FaceMarkerFrame>
         return None;
     }
     let mut mean: Vec<DVec3> = complete_frames[0].iter().flatten().copied().collect();
+    // The first frame's own errors are gone after the first round.
     for _ in 0..2 {
         let (mut sum, mut count) = (vec![DVec3::ZERO; mean.len()], 0.0);
         for seen in &complete_frames {
@@ -426,6 +428,7 @@ fn logs(
     of: impl Fn(usize) -> Option<f64>,
 ) -> Vec<f64> {
     let near = |time: f64| ((time * take.rate).round().max(0.0) as usize).min(take.followed_frame_count());
+    // Targets are sought only within the window, so that other frames need no probability.
     let (from, to) = (near(key.a1 - options.window), near(key.a1 + options.window) + 1);
     (0..to.min(take.followed_frame_count()))
         .map(|frame| {
@@ -443,6 +446,7 @@ fn measure_row_speed(frames: usize, rate: f64, row: impl Fn(usize) -> Option<Vec
     let rows: Vec<Option<Vec<f64>>> = (0..frames).map(row).collect();
     (0..frames)
         .map(|frame| {
+            // At the ends one neighbour is the frame itself.
             let (a, b) = (frame.saturating_sub(1), (frame + 1).min(frames - 1));
             match (&rows[a], &rows[b]) {
                 (Some(before), Some(after)) if b > a => {
@@ -487,6 +491,7 @@ fn gestures(
     let measured = both.filter(|(a, b)| a.measured && b.measured);
     let votes = measured.map(|(a, b)| b.movement.explained > a.movement.explained);
     let (ayes, noes): (Vec<bool>, Vec<bool>) = votes.partition(|vote| *vote);
+    // The course is a habit of the cuer, so that the keys vote on it together.
     if ayes.len() > noes.len() {
         for (usual, other) in usual.iter_mut().zip(other) {
             usual.fingers = other.fingers;
@@ -585,6 +590,7 @@ fn fit_target_movement<'a>(
     let mut to = to;
     loop {
         let fit = handed_over(&rows, from..=to, frame_time, course)?;
+        // A movement that would go on ends at its limit, and the target was found too early.
         let at_its_limit = fit.end / frame_time >= to as f64 + MAX_END_OVERRUN_FRAMES - 0.5;
         if !at_its_limit || to >= most {
             return Some(fit);
@@ -607,6 +613,7 @@ fn measure_key_gesture<'a>(
     let last = take.followed_frame_count().saturating_sub(1);
     let earliest = frame.saturating_sub((MAX_FIRST_MOVEMENT_SECONDS * take.rate) as usize);
     let arrival_frame = (around.arrived * take.rate) as usize;
+    // An end so late leaves too few frames for a fit, and the previous target is the better limit.
     let arrived = if arrival_frame + MIN_FITTED_FRAMES <= frame {
         arrival_frame
     } else {
@@ -614,6 +621,7 @@ fn measure_key_gesture<'a>(
     };
     let from = before.map_or(earliest, |before| before.max(arrived).max(earliest));
     let most = after.unwrap_or(last).min(last);
+    // Two frames past the target show the movement come to rest.
     let movement_fit = fit_target_movement(rows, from, (frame + 2).min(most), most, frame_time, course);
     let still = MovementFit {
         start: frame as f64 * frame_time,
@@ -621,6 +629,7 @@ fn measure_key_gesture<'a>(
         length: 0.0,
         explained: 0.0,
     };
+    // Nothing moves between two keys of one class, whatever noise the fit finds.
     let measured = !same
         && movement_fit
             .is_some_and(|fit| fit.length >= MIN_HAND_MOVEMENT_MM && fit.explained >= MIN_EXPLAINED_VARIANCE);

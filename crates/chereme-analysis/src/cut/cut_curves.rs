@@ -80,6 +80,7 @@ impl TakeCurves {
             return None;
         }
         let rate = clip.clip_frame_rate().per_second();
+        // The smoothing bell needs no more frames than the curves have samples.
         let stride = ((rate / CURVE_RATE).floor() as usize).max(1);
         let mut times = Vec::new();
         let mut samples: [Vec<HandSample>; 2] = Default::default();
@@ -92,6 +93,7 @@ impl TakeCurves {
                 arm.as_ref()
                     .map(|arm| HandSample::measure_hand(clip, frame, &pose, &trunk, arm, size.arm))
             });
+            // A frame with gaps is left to the smoothing, for both hands at once so that times stay common.
             if measured.iter().flatten().any(|sample| !sample.is_finite()) {
                 continue;
             }
@@ -101,6 +103,7 @@ impl TakeCurves {
             }
         }
         let last = *times.last()?;
+        // Rounding must not lose the sample at the last time.
         let count = (last * CURVE_RATE + 1e-6).floor() as usize + 1;
         let trunk_share = size.trunk / size.arm;
         let hands = samples.map(|samples| match samples.is_empty() {
@@ -138,12 +141,14 @@ fn trunk_frame(anatomy: &BodyAnatomy, pose: &ModelPose) -> Option<TrunkFrame> {
         let origin = (right + left) / 2.0;
         let up = (origin - hips).try_normalize()?;
         let left = (left - right).reject_from_normalized(up).try_normalize()?;
+        // Left, up and forward: a right-handed frame.
         let axes = DMat3::from_cols(left, up, left.cross(up));
         return Some(TrunkFrame {
             origin,
             rotation: DQuat::from_mat3(&axes).normalize(),
         });
     }
+    // A body without one of these joints is measured by its general frame.
     let body = anatomy.body_frame(pose)?;
     Some(TrunkFrame {
         origin: body.origin,
@@ -207,6 +212,7 @@ impl HandCurve {
         for number in 0..count {
             let time = number as f64 / CURVE_RATE;
             let reach = BELL_REACH * deviation + 1e-9;
+            // Times rise, so that the bell's first frame only moves on.
             while first + 1 < times.len() && times[first] < time - reach {
                 first += 1;
             }
@@ -223,6 +229,7 @@ impl HandCurve {
             curve.palms.push(mean.palm);
             curve.fingers.extend_from_slice(&mean.fingers);
         }
+        // Places count from the shoulders, heights from the hips.
         curve.height = curve.places.iter().map(|place| 1.0 + place.y / trunk_share).collect();
         curve.speed = central_differences(count, |a, b| curve.places[a].distance(curve.places[b]));
         curve.elbow_speed = central_differences(count, |a, b| elbows[a].distance(elbows[b]));
@@ -280,6 +287,7 @@ fn mean_rotation(rotations: impl Iterator<Item = DQuat>, weights: &[f64]) -> DQu
     for (rotation, weight) in rotations.zip(weights) {
         sum = Some(match sum {
             None => rotation * *weight,
+            // A rotation and its negative are the same; opposite signs would cancel out.
             Some(sum) if sum.dot(rotation) < 0.0 => sum - rotation * *weight,
             Some(sum) => sum + rotation * *weight,
         });

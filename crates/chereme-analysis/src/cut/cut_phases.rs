@@ -54,6 +54,7 @@ pub(super) fn divide_phases(curves: &TakeCurves, signs: &[SampledSign]) -> [Vec<
         for (place, sign) in own_signs.iter().enumerate() {
             let earliest = place.checked_sub(1).map_or(0, |before| own_signs[before].samples.end);
             let is_next = |next: &&&SampledSign| next.activity == sign.activity;
+            // Between two signs of one activity the way is the next one's preparation.
             let follows = own_signs.get(place + 1).filter(is_next).is_some();
             let latest = own_signs
                 .get(place + 1)
@@ -71,6 +72,7 @@ pub(super) fn divide_phases(curves: &TakeCurves, signs: &[SampledSign]) -> [Vec<
         let mut free_from = 0;
         for (kind, samples, confidence) in pieces {
             let instant = |sample: usize| RecordingInstant::from_seconds(sample as f64 / CURVE_RATE);
+            // The way to a sign may begin within the retraction before it; phases of a hand never overlap.
             let start = samples.start.max(free_from);
             if start < samples.end {
                 free_from = samples.end;
@@ -97,6 +99,7 @@ fn way_from_posture(hand: &HandCurve, end: usize, latest: usize) -> usize {
 
 /// Returns the sample of a way, up to its peak and down again, at which the speed falls below a share of the peak.
 fn end_of_way(speed: &[f64], samples: impl Iterator<Item = usize> + Clone) -> usize {
+    // Only the peak next to the sign is that of its own way.
     let around = (tuned().activity.around * 2.0 * CURVE_RATE).round() as usize;
     let near = samples.clone().take(around);
     let peak = near.max_by(|a, b| speed[*a].total_cmp(&speed[*b])).unwrap_or(0);
@@ -123,6 +126,7 @@ fn strokes_and_holds(hand: &HandCurve, samples: &Range<usize>) -> Vec<(PhaseKind
     ];
     let limits = channels.map(|(speed, limit)| {
         let peak = speed[near.clone()].iter().copied().fold(0.0, f64::max);
+        // A slow signer holds at slower speeds, but never below a share of the usual limit.
         limit.min(numbers.peak * peak).max(numbers.least * limit)
     });
     let is_held = |sample: usize| {
@@ -139,6 +143,7 @@ fn strokes_and_holds(hand: &HandCurve, samples: &Range<usize>) -> Vec<(PhaseKind
         let end = (start..samples.end)
             .find(|sample| is_held(*sample) != held)
             .unwrap_or(samples.end);
+        // A short stop is a turning point of the stroke and no hold.
         let kind = match held && end - start >= shortest {
             true => PhaseKind::Hold,
             false => PhaseKind::Stroke,

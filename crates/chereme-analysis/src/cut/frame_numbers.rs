@@ -110,6 +110,7 @@ impl LinearHead {
         Self {
             bias: weights.get("bias").copied().unwrap_or(0.0),
             weights: named.map(|(name, weight)| (name.clone(), *weight)).collect(),
+            // Boundaries are rare: their share's log odds are taken off, so that 0 is the rare case's chance.
             prior: share.map_or(0.0, |share| (share / (1.0 - share)).ln()),
         }
     }
@@ -120,6 +121,7 @@ impl LinearHead {
         let sum: f64 = weighted
             .map(|(place, (name, weight))| weight * number(place, name))
             .sum();
+        // One extreme frame must not outweigh a whole sign.
         let limit = tuned().decoder.clip;
         (self.bias + sum).clamp(-limit, limit) - self.prior
     }
@@ -211,6 +213,7 @@ impl FrameColumns {
             );
             let is_up = hands.each_ref().map(|hand| hand.height(frame) > up);
             let way = ways.each_ref().map(|sums| sums[last] - sums[first]);
+            // A single raised hand signs, however much the other one fidgets.
             match is_up {
                 [true, false] => 0,
                 [false, true] => 1,
@@ -228,6 +231,7 @@ impl FrameColumns {
     fn number_column(&self, number: &FrameNumber) -> Vec<f64> {
         let shifted = |frame: usize| {
             let other = frame.saturating_add_signed(number.shift).min(self.frames - 1);
+            // The weak hand is the other one of the dominant.
             let hand = self.dominant[other] ^ usize::from(number.is_weak);
             self.hands[hand].get(&number.kind).map_or(0.0, |column| column[other])
         };
@@ -295,6 +299,7 @@ impl HandFrames<'_> {
                 let ways = self.kind_column(NumberKind::Way(window));
                 let chords = self.kind_column(NumberKind::WristChange(window));
                 let pairs = chords.iter().zip(&ways);
+                // The summand keeps a hand that stands still from looking straight by noise.
                 pairs.map(|(chord, way)| chord / (way + 0.02)).collect()
             }
             NumberKind::Way(window) => {
@@ -335,11 +340,13 @@ impl HandFrames<'_> {
                 let distance = self
                     .hand
                     .posture_distance(frame * SAMPLES_PER_FRAME, other * SAMPLES_PER_FRAME);
+                // The hand has to leave before it can return.
                 farthest = farthest.max(distance);
                 if farthest >= away {
                     least = least.min(distance);
                 }
             }
+            // The summand keeps small distances small; the limit stands for no return at all.
             (least / (farthest + 0.2)).min(most)
         };
         (0..self.frames).map(returned).collect()

@@ -121,6 +121,7 @@ pub fn cut_take(clip: &Clip, anatomy: &BodyAnatomy, options: CutOptions) -> Resu
     let rest = RestHeights::measure_rest(wrists);
     let activities = peel_activities(wrists, rest);
     if activities.is_empty() {
+        // The two remedies differ, so that a still take is told from a low one.
         let way = |hand: &WristCurve<'_>| hand.speed.iter().sum::<f64>() / CURVE_RATE;
         return Err(match wrists.iter().map(way).fold(0.0, f64::max) < LEAST_WAY {
             true => UncutReason::NoMovement,
@@ -235,6 +236,7 @@ fn cut_activity(curves: &TakeCurves, odds: &FrameOdds, activity: &PeeledSign, op
                 .min(end)
                 .saturating_sub((span.start * step).max(begin));
             let all = (span.end * step).max(end) - (span.start * step).min(begin);
+            // The decoder's span supports the peeled one if they share half of the time of both.
             2 * shared >= all
         });
         // One sample has a length, too.
@@ -292,6 +294,7 @@ fn widen_to_flanks(speed: &[f64], samples: Range<usize>, bounds: Range<usize>) -
     let most = (seconds * CURVE_RATE).round() as usize;
     let peak = |samples: Range<usize>| speed[samples].iter().copied().fold(0.0, f64::max);
     let (mut start, mut end) = (samples.start, samples.end);
+    // The peak of the way to the sign, not of the sign, says what is slow.
     let slow_before = share * peak(bounds.start.min(start)..start + 1);
     while start > bounds.start && samples.start - start < most && speed[start - 1] < slow_before {
         start -= 1;

@@ -91,6 +91,7 @@ fn activity_ranges(hands: [WristCurve<'_>; 2], rest: RestHeights) -> Vec<Range<u
 }
 
 fn peel_activity(hands: [WristCurve<'_>; 2], rest: RestHeights, activity: Range<usize>) -> Option<PeeledSign> {
+    // Only the way while raised counts: an arm that swings below does not sign.
     let way = |hand: &WristCurve<'_>| -> f64 {
         let raised = activity.clone().filter(|sample| hand.height[*sample] > rest.down);
         raised.map(|sample| hand.speed[sample] / CURVE_RATE).sum()
@@ -105,6 +106,7 @@ fn peel_activity(hands: [WristCurve<'_>; 2], rest: RestHeights, activity: Range<
     };
     let mut sign: Option<(usize, usize)> = None;
     for (number, hand) in hands.into_iter().enumerate() {
+        // A weak hand that hardly moves neither delays the begin nor the end.
         if number != dominant && ways[number] <= tuned().activity.weak_share * ways[dominant] {
             continue;
         }
@@ -128,6 +130,7 @@ fn peel_hand(hand: WristCurve<'_>, rest: RestHeights, activity: &Range<usize>) -
         return None;
     }
     raised.sort_by(f64::total_cmp);
+    // The mean of both middles is the median for an even count, and the same in a reversed take.
     let (middle, low_middle) = (raised[raised.len() / 2], raised[(raised.len() - 1) / 2]);
     let usual = (middle + low_middle) / 2.0;
     let level = rest.rest + tuned().peel.level * (usual - rest.rest);
@@ -135,6 +138,7 @@ fn peel_hand(hand: WristCurve<'_>, rest: RestHeights, activity: &Range<usize>) -
     let first = activity.clone().find(is_arrived)?;
     let last = activity.clone().rev().find(is_arrived)?;
     let peak = |samples: Range<usize>| hand.speed[samples].iter().copied().fold(0.0, f64::max);
+    // The peak of the way up may lie before the activity, in which hands must be up already.
     let slow_before = tuned().peel.slow * peak(activity.start.saturating_sub(around)..first + 1);
     let slow_after = tuned().peel.slow * peak(last..(activity.end + around).min(hand.speed.len()));
     let is_minimum = |sample: usize| {

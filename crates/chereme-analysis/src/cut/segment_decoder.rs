@@ -29,6 +29,7 @@ impl FrameOdds {
     pub(super) fn decode_signs(&self, frames: Range<usize>, weight: f64, cost: f64) -> Vec<Range<usize>> {
         let numbers = &tuned().decoder;
         let count = frames.len();
+        // Sums up to each frame give the odds of any span by one difference.
         let mut sums = vec![0.0];
         for score in &self.sign[frames.clone()] {
             sums.push(sums.last().copied().unwrap_or(0.0) + score);
@@ -37,12 +38,15 @@ impl FrameOdds {
         let mut best = vec![0.0; count + 1];
         let mut begins: Vec<Option<usize>> = vec![None; count + 1];
         for end in 1..=count {
+            // A frame may belong to no sign and scores nothing.
             best[end] = best[end - 1];
             let ending = self.end_odds(frames.start + end) - cost;
             for begin in end.saturating_sub(numbers.longest)..(end + 1).saturating_sub(numbers.shortest) {
+                // A gap keeps two signs from touching; at the start there is no sign to keep away from.
                 let before = best[begin.saturating_sub(numbers.gap)];
                 let within = weight * (sums[end] - sums[begin]);
                 let score = before + within + self.begin[frames.start + begin] + ending;
+                // Rounding must not decide between spans of equal score.
                 if score > best[end] + 1e-12 {
                     (best[end], begins[end]) = (score, Some(begin));
                 }
