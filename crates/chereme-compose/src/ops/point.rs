@@ -128,6 +128,7 @@ pub(crate) fn point_at_target(
     let seconds = match settings.via.time {
         Some(time) => time.0,
         None => {
+            // The time depends on the wrist's way, which is tried out first.
             let mut reaching = work.clone();
             reaching.resample_channels(&[0.0; REACH_STEPS + 1]);
             carry_to_apex(&mut reaching, &apex, sides, courses, |step| {
@@ -146,6 +147,7 @@ pub(crate) fn point_at_target(
     join::check_length(work, total)?;
     work.resample_channels(&vec![0.0; total]);
     carry_to_apex(work, &apex, sides, courses, |frame| {
+        // The way back mirrors the way there.
         frame.min(total - 1 - frame) as f64 / reach as f64
     });
     for (side, pose) in shapes {
@@ -251,11 +253,13 @@ fn aim_index_finger(
     let model = ModelPose::from_local_pose(&apex.skeleton, &apex.local_pose_at(0));
     let shoulder = model.model_joint_position(chain.upper);
     let direction = (target - shoulder).normalize_or(frame.forward);
+    // A finger that points up or down leaves no palm that could face down.
     let down = if direction.y.abs() > 0.9 {
         frame.forward
     } else {
         DVec3::NEG_Y
     };
+    // As people point: the palm down and a little inwards.
     let palm = (down - frame.left * (0.3 * side.side_sign())).reject_from_normalized(direction);
     let rotation = apex
         .anatomy
@@ -264,7 +268,9 @@ fn aim_index_finger(
     let length = |model: &ModelPose| {
         index_finger_ends(apex, model, side).map(|(_, tip)| tip.distance(model.model_joint_position(chain.hand)))
     };
+    // A usual hand stands in where the tip is unknown.
     let hand = length(&model).unwrap_or(0.18).max(0.15);
+    // Before a near target the finger stops short, but the arm is never folded up.
     let stretch = (POINT_ARM_EXTENSION * crate::body::arm_length(apex, side).unwrap_or(frame.arm))
         .min(shoulder.distance(target) - hand - SHORT_OF)
         .max(0.25 * frame.arm);
@@ -278,6 +284,7 @@ fn aim_index_finger(
         let line = (tip - base).normalize_or(direction);
         let to = target - base;
         missed = to.reject_from_normalized(line).length();
+        // A target behind the finger's base is not met by turning on.
         if missed < 1e-5 || line.dot(to) <= 0.0 {
             break;
         }

@@ -158,6 +158,7 @@ pub(crate) fn repeat_movement(
     courses: &TransitionCourses,
     operator: &str,
 ) -> Result<join::JoinOutcome, StepError> {
+    // The gap contains the transition, whose time serves if no gap is given.
     let seconds = settings.gap.or(settings.via.time).map_or(REPEAT_GAP_S, |time| time.0);
     let gap = (seconds / work.rate.frame_time()).round() as usize;
     let times = settings.times as usize;
@@ -188,9 +189,11 @@ pub(crate) fn repeat_movement(
         if tempo != 1.0 {
             retime::stretch_movement(&mut next, 1.0 / tempo)?;
         }
+        // Each repetition changes the one before, so that the factors multiply.
         if scale != 1.0 || tempo != 1.0 {
             once = next.clone();
         }
+        // The return to rest and the next way from it are cut off between repetitions.
         let signed_frames = stroke::signed_frame_range(&next)?;
         rested |= tail > 0 || signed_frames.start > 0;
         let signed = work.frames - tail;
@@ -223,6 +226,7 @@ pub(crate) fn repeat_movement(
 /// Notes the number of repetitions for each active hand, in place of its earlier value.
 fn note_repetition_count(work: &mut WorkingClip, times: usize, operator: &str) {
     let is_said = |about: &NoteSubject| matches!(about, NoteSubject::Component(SignComponent::Movement, Some(it)) if it == "repetition");
+    // A sign that repeats already does so more than twice when it is played twice.
     let more = work.notes.iter().any(|note| {
         let value = note.value.reading_value();
         is_said(&note.about) && value.is_some_and(|value| value != "once")

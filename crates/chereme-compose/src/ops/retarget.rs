@@ -110,11 +110,13 @@ pub(crate) fn retarget_movement(work: &WorkingClip, onto: &TargetBody<'_>) -> Re
         });
     let mut model: Vec<Vec<DQuat>> = Vec::with_capacity(skeleton.len());
     for (joint, pair) in pairs.iter().enumerate() {
+        // Parents come first, so that their rotations are known here.
         let above = skeleton.joint_parent(joint).map(|parent| &model[parent]);
         let parent = |frame: usize| above.map_or(DQuat::IDENTITY, |column| column[frame]);
         let idle = onto.idle.rotations[joint];
         let column: Vec<DQuat> = match *pair {
             Some((from, part)) => {
+                // The turn away from rest carries over; the rest poses themselves differ between the bodies.
                 let back = there.compared_part_posture(part).model_joint_rotation(from).inverse();
                 let onto = rest_pose_rotation(&there, &here, part)
                     * here.compared_part_posture(part).model_joint_rotation(joint);
@@ -203,6 +205,7 @@ impl PartAxes {
             BodyPart::Forearm(side) => {
                 let along = bone()?;
                 let upper = (joint_position(part)? - joint_position(BodyPart::UpperArm(side))?).try_normalize();
+                // A forearm has the axis of its elbow, carried over by the bend between the two bones.
                 let carried = upper.map(|upper| DQuat::from_rotation_arc(upper, along));
                 (along, elbow(side).zip(carried).map(|(out, turn)| turn * out))
             }
@@ -282,6 +285,7 @@ fn rest_pose_rotation(from: &ComparedBody<'_>, to: &ComparedBody<'_>, part: Body
     let (Some(there), Some(here)) = (axes(from), axes(to)) else {
         return bodies;
     };
+    // Without a direction across, only the bone is certain, and the trunk's turn decides the rest.
     match (there.part_axes_basis(), here.part_axes_basis()) {
         (Some(there), Some(here)) => there * here.inverse(),
         _ => DQuat::from_rotation_arc((bodies * here.along).normalize(), there.along) * bodies,
@@ -301,6 +305,7 @@ fn retarget_root(work: &WorkingClip, out: &mut WorkingClip) {
     let size = |work: &WorkingClip| {
         let measures = work.anatomy.anatomy_measures()?;
         let leg = leg_length(&work.skeleton, &work.anatomy);
+        // A leg is a little less than half of the stature.
         Some(leg.unwrap_or(measures.stature * 0.49))
     };
     let size_pair = size(work).zip(size(out)).filter(|sizes| sizes.0 > 1e-3);
@@ -348,6 +353,7 @@ fn retarget_wrists(work: &WorkingClip, out: &mut WorkingClip) {
         return;
     };
     let there = JointColumns::joint_columns_of(work, [r.hand, l.hand]);
+    // The shoulders before either arm moves: a collar bone that helps one arm must not shift the other.
     let here = JointColumns::joint_columns_of(out, [right.hand, left.hand]);
     let middle = |columns: &JointColumns, a: usize, b: usize, frame: usize| {
         (columns.joint_positions(a)[frame] + columns.joint_positions(b)[frame]) / 2.0
@@ -427,6 +433,7 @@ fn retarget_thumb(work: &WorkingClip, out: &mut WorkingClip, side: BodySide) {
         let Some(parent) = out.skeleton.joint_parent(to.joint) else {
             continue;
         };
+        // Anew for each bone, because the bone before it has turned.
         let here = JointColumns::joint_columns_of(out, [parent]);
         for frame in 0..work.frames {
             let wanted = from.digit_bone_direction(work, frame);
@@ -448,6 +455,7 @@ pub(crate) fn resample_work_rate(work: &mut WorkingClip, rate: FrameRate) {
         return;
     }
     let last = work.rate.frame_start_instant(work.frames - 1);
+    // A frame that starts after the last old one has nothing to show.
     let frames =
         rate.nearest_frame_at(last) + usize::from(rate.frame_start_instant(rate.nearest_frame_at(last)) <= last);
     let from = work.rate.per_second();

@@ -149,6 +149,7 @@ pub(crate) fn retime_movement(
     };
     let other = map.new.last() != map.old.last();
     warp(work, &map)?;
+    // Another length belies a written manner, such as a fast one.
     if other {
         component_notes::withdraw_hand_notes(work, &BodySide::BOTH_SIDES, operator, |component, feature| {
             component == SignComponent::Movement && feature == Some("manner")
@@ -177,6 +178,7 @@ struct FrameMap {
 }
 
 fn map_frame_through(from: &[f64], to: &[f64], at: f64) -> f64 {
+    // Beyond either end its outermost piece goes on.
     let n = from.partition_point(|&bound| bound <= at).clamp(1, from.len() - 1);
     let (a, b) = (from[n - 1], from[n]);
     let share = if b > a { (at - a) / (b - a) } else { 0.0 };
@@ -201,6 +203,7 @@ fn warp(work: &mut WorkingClip, map: &FrameMap) -> Result<(), StepError> {
     };
     let end = work.working_clip_end();
     for note in &mut work.notes {
+        // The rounded length may be shorter than the mapped one.
         let (start, stop) = (
             moved(note.span.span_start_instant()).min(end),
             moved(note.span.span_end_instant()).min(end),

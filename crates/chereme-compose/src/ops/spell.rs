@@ -203,12 +203,14 @@ fn plan_letter_shows(
         let mut key = (seat + slid, rotation.ok_or(StepError::NoFingers(side))?);
         let mut keys = vec![key];
         for stroke in &letter.strokes {
+            // Turns are described for a right hand; a left one turns the other way.
             let about = direction.normalize_or(DVec3::Y) * -side.side_sign();
             key.0 += hand_vector(stroke.displacement) * frame.shoulders;
             key.1 = DQuat::from_axis_angle(about, stroke.turn) * key.1;
             keys.push(key);
         }
         let drawn = frames(LETTER_STROKE_S) * letter.strokes.len();
+        // Drawing a letter may take longer than holding one.
         let end = start + hold.max(drawn);
         shows.push(LetterShow {
             frames: start..end,

@@ -41,6 +41,7 @@ pub(crate) fn append_next_work(
         Some(next) => next,
         None => {
             did.push("the second signer's movement is put on the first one's body".to_owned());
+            // Only what the other body adds to the speeds is worth a warning.
             let before = StepSpeeds::between_frames(&next);
             let onto = TargetBody {
                 skeleton: &work.skeleton,
@@ -56,6 +57,7 @@ pub(crate) fn append_next_work(
             done.work
         }
     };
+    // Frames of both can be compared only at one rate.
     retarget::resample_work_rate(&mut next, work.rate);
     let ends = without_rest(work, &mut next)?;
     face_alike(work, &mut next);
@@ -95,6 +97,7 @@ pub(crate) fn append_next_work(
         leaves.clone().fold(0, usize::max),
         enters.clone().fold(next.frames, usize::min),
     );
+    // A join may be as fast as the signs on either side of it.
     let pieces = speed::faster_of_both(
         StepSpeeds::between_frames(work).peaks_over(0..latest),
         StepSpeeds::between_frames(&next).peaks_over(earliest..next.frames),
@@ -201,11 +204,13 @@ fn on_same_body(first: &WorkingClip, second: &WorkingClip) -> Option<WorkingClip
             continue;
         };
         let other = b.joint_at(m);
+        // Equal names in another hierarchy belong to another body.
         if joint.parent.map(|parent| counterparts[parent]) != other.parent.map(Some) {
             return None;
         }
         counterparts.push(Some(m));
         let mut channel = second.channels[m].clone();
+        // Where both movements place a joint in every frame, the files' offsets say nothing.
         let given = first.channels[n].translations.is_some() && channel.translations.is_some();
         if joint.rest != other.rest || !(given || joint.offset == other.offset) {
             let bone = second.joint_translation_at(m, 0);
@@ -217,6 +222,7 @@ fn on_same_body(first: &WorkingClip, second: &WorkingClip) -> Option<WorkingClip
             let [one, two] = [place, bone].map(DVec3::normalize_or_zero);
             let longer = (place.length() - bone.length()).abs();
             let alike_bones = longer <= SAME_LENGTH * place.length() && one.distance(two) < most;
+            // Joints above the hips only carry the body, wherever they are.
             let leads = a.joint_ancestors(hips).any(|above| above == n);
             let alike = joint.rest.angle_between(other.rest) < most && (leads || alike_bones);
             if !same_signer || !alike {
@@ -247,8 +253,10 @@ fn standing_spot(work: &WorkingClip, frame: usize) -> (DVec3, Option<DVec3>) {
     let body = work.anatomy.body_frame(&model);
     let thighs = pair(BodyPart::Thigh).and_then(|(right, left)| {
         let left = model.model_joint_position(left) - model.model_joint_position(right);
+        // Left across up is forward.
         left.cross(DVec3::Y).try_normalize()
     });
+    // Thighs show where a body faces even if its shoulders are turned.
     let forward = thighs.or(body.map(|body| body.forward));
     if let Some((right, left)) = pair(BodyPart::Foot) {
         let columns = JointColumns::joint_columns_of(work, [right, left]);
@@ -275,6 +283,7 @@ fn face_alike(first: &WorkingClip, second: &mut WorkingClip) {
     let angle = faced.zip(facing).map_or(0.0, |(to, from)| yaw(to) - yaw(from));
     let turn = DQuat::from_rotation_y(angle);
     let shift = end - turn * start;
+    // A movement that already stands there keeps its numbers exactly.
     let moves = shift.length() > 1e-6 || turn.w.abs() < 1.0 - 1e-9;
     if !moves {
         return;
@@ -330,6 +339,7 @@ fn seam(first: &WorkingClip, second: &WorkingClip, time: Option<RecipeSeconds>, 
             for (enter, &to) in pb.iter().enumerate().take(after + 1) {
                 let trimmed_frames = leave.abs_diff(usual.leave) + enter.abs_diff(usual.enter);
                 let trimmed = trimmed_frames as f64 / (before + after).max(1) as f64;
+                // Of places that are nearly as close, the one that leaves out less: all frames weigh 2 cm.
                 let cost = from.distance(to) + 0.02 * trimmed;
                 if cost < least {
                     (least, *cut) = (cost, ChannelCut { leave, enter });
@@ -348,6 +358,7 @@ fn seam(first: &WorkingClip, second: &WorkingClip, time: Option<RecipeSeconds>, 
         _ if left_out(&left) < left_out(&right) => left,
         _ => right,
     };
+    // An idle hand, which leaves nothing out, goes with the hand that signs.
     let hands = [right, left].map(|cut| if left_out(&cut) < left_out(&body) { body } else { cut });
     let shift = |&joint: &usize| a.joint_positions(joint)[body.leave].distance(b.joint_positions(joint)[body.enter]);
     let farthest = stance.iter().map(shift).fold(0.0, f64::max);
