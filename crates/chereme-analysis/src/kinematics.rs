@@ -75,6 +75,7 @@ pub fn wrist_speed(clip: &Clip, anatomy: &BodyAnatomy, side: BodySide) -> Vec<f6
     let Some(arm) = anatomy.arm_chain(side) else {
         return Vec::new();
     };
+    // Seen from above the collar bone, so that a moving trunk moves no hand.
     let base = clip.clip_skeleton().joint_parent(arm.clavicle.unwrap_or(arm.upper));
     let path: Vec<DVec3> = (0..clip.clip_frame_count())
         .map(|frame| place_in(clip, arm.hand, DVec3::ZERO, base, frame))

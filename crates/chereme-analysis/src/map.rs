@@ -63,6 +63,7 @@ pub fn find_feature_neighbours(
         if index % 64 == 0 && !goes_on(index) {
             return None;
         }
+        // Only things that share a feature are compared.
         for &(feature, weight) in thing {
             for &(other, own) in &holders[feature as usize] {
                 if likeness[other] == 0.0 {
@@ -93,6 +94,7 @@ pub fn find_feature_neighbours(
 /// `goes_on` is called with the share of the work done. Returns `None` if it returns false.
 pub fn lay_out_map(neighbours: &[SimilarNeighbours], mut goes_on: impl FnMut(f32) -> bool) -> Option<Vec<[f32; 2]>> {
     let edges = edges(neighbours);
+    // A fixed seed gives equal corpora equal maps.
     let mut random = LayoutRandom(RandomNumbers::new(0x9E37_79B9_7F4A_7C15));
     let mut places = initial_map_positions(neighbours.len(), &edges, &mut random);
     let heaviest = edges.iter().map(|edge| edge.weight).fold(0.0, f32::max);
@@ -103,6 +105,7 @@ pub fn lay_out_map(neighbours: &[SimilarNeighbours], mut goes_on: impl FnMut(f32
         if !goes_on(share) {
             return None;
         }
+        // Steps shrink evenly to nothing, as in UMAP.
         let rate = 1.0 - share;
         for (edge, due) in edges.iter().zip(&mut due) {
             if *due > (round + 1) as f32 {
@@ -155,12 +158,14 @@ fn edges(neighbours: &[SimilarNeighbours]) -> Vec<NeighbourEdge> {
 
 /// Returns the initial positions: the second and third eigenvectors of the graph's random walk, with a little noise.
 fn initial_map_positions(count: usize, edges: &[NeighbourEdge], random: &mut LayoutRandom) -> Vec<[f32; 2]> {
+    // A thing without neighbours must not divide by zero.
     let mut degrees = vec![1e-6_f32; count];
     for edge in edges {
         degrees[edge.a] += edge.weight;
         degrees[edge.b] += edge.weight;
     }
     let roots: Vec<f32> = degrees.iter().map(|degree| degree.sqrt()).collect();
+    // The first eigenvector is known: the roots of the degrees. It says nothing about places.
     let mut axes: Vec<Vec<f32>> = vec![normalise_map_vector(roots.clone())];
     for _ in 0..2 {
         let mut axis: Vec<f32> = (0..count).map(|_| random.random_signed_share()).collect();
@@ -208,6 +213,7 @@ fn attract(places: &mut [[f32; 2]], a: usize, b: usize, rate: f32) {
         return;
     }
     let power = squared.powf(CLOSENESS_CURVE.1);
+    // The derivative of the logarithm of the closeness.
     let pull = -2.0 * CLOSENESS_CURVE.0 * CLOSENESS_CURVE.1 * power / squared / (1.0 + CLOSENESS_CURVE.0 * power);
     for axis in 0..2 {
         let step = rate * (pull * away[axis]).clamp(-MAX_AXIS_STEP, MAX_AXIS_STEP);
@@ -218,6 +224,7 @@ fn attract(places: &mut [[f32; 2]], a: usize, b: usize, rate: f32) {
 
 fn repel(places: &mut [[f32; 2]], moved: usize, from: usize, rate: f32) {
     let (away, squared) = map_place_offset(places[moved], places[from]);
+    // The derivative of the logarithm of 1 less the closeness; 0.001 bounds it where things coincide.
     let push =
         2.0 * CLOSENESS_CURVE.1 / ((0.001 + squared) * (1.0 + CLOSENESS_CURVE.0 * squared.powf(CLOSENESS_CURVE.1)));
     for axis in 0..2 {
@@ -289,6 +296,7 @@ impl LayoutRandom {
 
     /// Returns a number from -1 to 1.
     fn random_signed_share(&mut self) -> f32 {
+        // An `f32` holds 24 bits.
         (self.0.random_bits() >> 40) as f32 / (1_u64 << 23) as f32 - 1.0
     }
 }

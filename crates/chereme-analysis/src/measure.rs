@@ -88,6 +88,7 @@ pub fn measure_hand_movement(
             let finger_strokes = find_transition_strokes(clip, anatomy, side, MovingPart::Fingers);
             let mut inside = finger_strokes.iter().filter(|frames| is_stroke_inside(frames, &within));
             let first = inside.next()?;
+            // Frames stand at both ends of a stroke, so that it lasts one interval less than its frames.
             Some(MeasuredStroke {
                 seconds: (first.len() - 1) as f64 * clip.clip_frame_rate().frame_time(),
                 strokes: 1 + inside.count(),
@@ -148,6 +149,7 @@ fn measure_wrist_stroke(clip: &Clip, wrist: impl Fn(usize) -> DVec3, within: &Ra
     if length <= 0.0 {
         return None;
     }
+    // Of 49 points the 25th is the middle of the path.
     let even = transcribe_path::evenly_spaced_points(points, 49);
     let bow = (even[24] - points[0] - chord / 2.0).reject_from_normalized(chord / length);
     Some(MeasuredStroke {

@@ -110,7 +110,7 @@ impl LinearHead {
         Self {
             bias: weights.get("bias").copied().unwrap_or(0.0),
             weights: named.map(|(name, weight)| (name.clone(), *weight)).collect(),
-            // Boundaries are rare: their share's log odds are taken off, so that 0 is the rare case's chance.
+            // Without the log odds of its share, the odds of a rare boundary are the evidence of the frame alone.
             prior: share.map_or(0.0, |share| (share / (1.0 - share)).ln()),
         }
     }

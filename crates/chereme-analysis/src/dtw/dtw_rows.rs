@@ -61,19 +61,23 @@ impl pulp::NullaryFnOnce for RowTableFill<'_> {
             keep,
         } = self;
         let (n, m) = (query.series_frame_count(), reference.series_frame_count());
+        // Steps go back two rows at most, so that three rows of costs take turns.
         let mut costs = [(); 3].map(|()| vec![f64::INFINITY; m + ROW_PADDING_COLUMNS]);
         let mut locals = [(); 2].map(|()| vec![f64::INFINITY; m + ROW_PADDING_COLUMNS]);
         let mut steps = vec![0; if keep { rows.iter().map(Range::len).sum() } else { m }];
         let mut used = 0;
         let mut offsets = Vec::with_capacity(n);
         if options.open_begin {
+            // This is the row before the first: at no cost, paths may start at any column.
             costs[0][ROW_PADDING_COLUMNS..].fill(0.0);
         }
         for i in 0..n {
             let range = rows[i].clone();
+            // Only what the row three before this one wrote has to be cleared.
             let stale = if i >= 3 { rows[i - 3].clone() } else { 0..m };
             let mut cost = std::mem::take(&mut costs[(i + 1) % 3]);
             cost[stale.start + ROW_PADDING_COLUMNS..stale.end + ROW_PADDING_COLUMNS].fill(f64::INFINITY);
+            // A step over two rows reads this row's distances in the columns of the next.
             let ahead = rows.get(i + 1).map_or(0, |next| next.end).max(range.end);
             let values: Vec<f64> = query.frame_values(i).collect();
             local_row(
@@ -115,6 +119,7 @@ struct RowInputs<'a> {
 impl RowInputs<'_> {
     #[inline(always)]
     fn fill_cost_row(mut self, pattern: StepPattern, cost: &mut [f64], mut steps: &mut [u8]) {
+        // Every path starts in the first cell, to which no step leads.
         if self.start && self.range.contains(&0) {
             cost[ROW_PADDING_COLUMNS] = self.locals[0][ROW_PADDING_COLUMNS];
             self.range.start = 1;
@@ -134,6 +139,7 @@ impl RowInputs<'_> {
         let local = &self.locals[0][start + ROW_PADDING_COLUMNS..end + ROW_PADDING_COLUMNS];
         let out = &mut cost[start + ROW_PADDING_COLUMNS..end + ROW_PADDING_COLUMNS];
         for (((three, d), out), step) in above.windows(3).zip(local).zip(out).zip(steps) {
+            // Strict comparisons let the step that is first in the table win a tie.
             let (best, code) = if three[1] < three[2] {
                 (three[1], 1)
             } else {
@@ -172,6 +178,7 @@ fn local_row(values: &[f64], reference: &ChannelSeries, range: Range<usize>, loc
         let mut sums = [0.0; DISTANCE_CHUNK_COLUMNS];
         for (channel, value) in values.iter().enumerate() {
             let column = &reference.channel_values(channel)[start..start + out.len()];
+            // A fixed length lets the compiler use vector instructions.
             match <&[f64; DISTANCE_CHUNK_COLUMNS]>::try_from(column) {
                 Ok(column) => add_squares(&mut sums, *value, column),
                 Err(_) => add_squares(&mut sums[..column.len()], *value, column),

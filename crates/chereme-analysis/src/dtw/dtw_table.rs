@@ -17,6 +17,7 @@ impl DtwTable {
         let rows = options
             .window
             .window_row_ranges(query.series_frame_count(), reference.series_frame_count());
+        // Patterns of single steps run along anti-diagonals, whose cells do not depend on each other.
         let Some(diagonal) = options.pattern.diagonal_weight() else {
             return Some(Self::Rows(dtw_rows::fill_row_table(
                 query, reference, &rows, options, KEEP,
@@ -59,6 +60,7 @@ impl DtwTable {
             let production = &productions[usize::from(step)];
             path.extend(production.via.iter().rev().map(|(a, b, _)| (i - a, j - b)));
             let (di, dj) = production.from;
+            // With an open begin the first step leads out of the table.
             if di > i {
                 break;
             }

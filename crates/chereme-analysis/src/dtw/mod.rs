@@ -260,6 +260,7 @@ fn check_dtw_input(
 }
 
 fn too_large(cells: u64, limit: u64, frames: usize, kept: bool) -> DtwError {
+    // A band of half width w has at most 2w + 1 cells for each frame.
     let half_width = (limit / frames.max(1) as u64).saturating_sub(1) / 2;
     let without_path = if kept {
         ", or ask for the distance without its path"
@@ -297,6 +298,7 @@ fn with_policy(
         DtwPathPolicy::SlantedBand => {
             let half_width = slanted_width(options.window, n, m);
             let window = AlignmentWindow::SlantedBand(half_width);
+            // The band may have more cells than the window that was checked.
             check_dtw_input(
                 query,
                 reference,
@@ -318,6 +320,7 @@ fn slanted_width(window: AlignmentWindow, n: usize, m: usize) -> usize {
         AlignmentWindow::None => m,
         AlignmentWindow::SakoeChiba(w) | AlignmentWindow::SlantedBand(w) => w,
     };
+    // A narrower band leaves gaps between the rows of a longer reference.
     asked.max(m.div_ceil(n))
 }
 

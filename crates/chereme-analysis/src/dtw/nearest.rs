@@ -92,6 +92,7 @@ fn pruned(
     let mut queue = Vec::with_capacity(candidates.len());
     let mut bounds = Vec::new();
     for (index, candidate) in candidates.iter().enumerate() {
+        // An envelope depends on the length alone, and candidates of one length share it.
         let envelope = envelopes
             .entry(candidate.series_frame_count())
             .or_insert_with_key(|frames| QueryEnvelope::envelope_for_length(query, *frames, options));
@@ -109,6 +110,7 @@ fn pruned(
     let mut queue = BinaryHeap::from(queue);
     let reversed = ReversedSeries::reverse_series(query);
     while let Some(Reverse(bound)) = queue.pop() {
+        // Bounds come out of the queue in order: no later candidate can win either.
         if bound.least * LOWER_BOUND_SLACK > best.useful_distance_limit() {
             break;
         }
@@ -117,6 +119,7 @@ fn pruned(
             continue;
         };
         envelope.write_frame_bounds(candidate, options.local, BOUND_RUN_FRAMES, &mut bounds);
+        // The bound from all frames is higher and may let others go first.
         if bound.sampled {
             queue.push(Reverse(DistanceBound {
                 least: sum_frame_bounds(&bounds),

@@ -26,6 +26,7 @@ pub(super) struct ReversedSeries {
 impl ReversedSeries {
     pub(super) fn reverse_series(series: &ChannelSeries) -> Self {
         let frames = series.series_frame_count();
+        // Lanes beyond either end read padding, so that no cell needs a test.
         let stride = frames + 2 * SKEW_LANE_ROWS;
         let mut values = vec![0.0; stride * series.series_channel_count()];
         for (channel, out) in values.chunks_exact_mut(stride).enumerate() {
@@ -125,6 +126,7 @@ fn fill_row_blocks<const KEEP: bool>(
             return None;
         }
     }
+    // Columns before the last row's range still hold costs of earlier rows.
     above[..=ask.rows[n - 1].start].fill(f64::INFINITY);
     Some(SkewCostTable {
         last: above[1..=m].to_vec(),
@@ -175,6 +177,7 @@ fn advance_row_block<const KEEP: bool>(
             for r in 0..SKEW_LANE_ROWS {
                 let (across, along) = (diagonal[r] + ask.diagonal * d[r], left[r] + d[r]);
                 left[r] = lesser(lesser(up[r], left[r]) + d[r], across);
+                // A tie takes the step that is first in the table: across, along the columns, along the rows.
                 if KEEP {
                     let straight = if along == left[r] { 1 } else { 2 };
                     codes[r] = if across == left[r] { 0 } else { straight };
@@ -184,6 +187,7 @@ fn advance_row_block<const KEEP: bool>(
             if KEEP {
                 steps.push(codes);
             }
+            // The lane of the last row is that many anti-diagonals behind.
             if s >= start + last {
                 above[s - last + 1] = left[last];
                 least = lesser(left[last], least);
@@ -227,6 +231,7 @@ fn local_costs(
 fn mask(rows: &[Range<usize>], from: usize, tile: &mut [CostLane]) {
     let count = tile.len();
     for r in 0..SKEW_LANE_ROWS {
+        // Lanes after the last row have no cell.
         let (start, end) = rows
             .get(r)
             .map_or((count + from, 0), |row| (row.start + r, row.end + r));

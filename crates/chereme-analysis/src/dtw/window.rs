@@ -40,6 +40,7 @@ impl AlignmentWindow {
             Self::None => 0..m,
             Self::SakoeChiba(w) => i.saturating_sub(w).min(m)..i.saturating_add(w).min(m - 1) + 1,
             Self::SlantedBand(w) => {
+                // Products of two long lengths exceed 64 bits.
                 let run = (n as u128).saturating_sub(1).max(1);
                 let (line, width) = (i as u128 * (m as u128 - 1), w as u128 * run);
                 let start = line.saturating_sub(width).div_ceil(run);
@@ -54,6 +55,7 @@ impl AlignmentWindow {
         (0..n)
             .map(|i| {
                 let row = self.window_row_range(i, n, m);
+                // A row outside the reference is empty and must not be a reversed range.
                 row.start.min(row.end)..row.end
             })
             .collect()
