@@ -71,6 +71,7 @@ pub fn find_transition_strokes(
             (MIN_WRIST_STROKE, speeds)
         }
         MovingPart::Fingers => {
+            // The root of the sum of squares, divided by this, is the root of the mean square.
             let count = (joints.len() as f64).sqrt();
             let turned = |a, b| joint_rotation_between(clip, &joints, a, b) / count;
             (
@@ -132,6 +133,7 @@ pub(crate) fn central_difference_speeds(
 /// Returns speeds smoothed by a Gaussian, so that noise adds no minima.
 pub(crate) fn gaussian_smoothed_speeds(speeds: &[f64], clip: &Clip) -> Vec<f64> {
     let frame = clip.clip_frame_rate().frame_time();
+    // Beyond three standard deviations the bell adds nothing that counts.
     let reach = ((3.0 * SPEED_SMOOTHING_SECONDS / frame).ceil() as usize).min(speeds.len());
     let bell: Vec<f64> = (0..=reach)
         .map(|away| (-0.5 * (away as f64 * frame / SPEED_SMOOTHING_SECONDS).powi(2)).exp())
@@ -139,6 +141,7 @@ pub(crate) fn gaussian_smoothed_speeds(speeds: &[f64], clip: &Clip) -> Vec<f64> 
     (0..speeds.len())
         .map(|n| {
             let near = n.saturating_sub(reach)..(n + reach + 1).min(speeds.len());
+            // Near the ends the bell is cut off, so that its weights differ.
             let (mut sum, mut weights) = (0.0, 0.0);
             for m in near {
                 let weight = bell[m.abs_diff(n)];
@@ -154,6 +157,7 @@ pub(crate) fn gaussian_smoothed_speeds(speeds: &[f64], clip: &Clip) -> Vec<f64> 
 pub(crate) fn between_minima(speeds: &[f64], least: f64) -> Vec<Range<usize>> {
     let peak = |n: usize| {
         let (before, after) = (n.checked_sub(1).map(|m| speeds[m]), speeds.get(n + 1));
+        // Of a plateau the first frame is the peak.
         speeds[n] >= least && before.is_none_or(|s| s < speeds[n]) && after.is_none_or(|s| *s <= speeds[n])
     };
     let mut frame_ranges: Vec<Range<usize>> = Vec::new();
@@ -163,6 +167,7 @@ pub(crate) fn between_minima(speeds: &[f64], least: f64) -> Vec<Range<usize>> {
         let (Some(start), Some(end)) = (start, end) else {
             continue;
         };
+        // A higher peak between the two minima has the stretch as its own.
         let highest = speeds[start..=end].iter().all(|&speed| speed <= speeds[top]);
         if highest && frame_ranges.last().is_none_or(|last| last.start != start) {
             frame_ranges.push(start..end + 1);

@@ -85,6 +85,7 @@ pub fn wilcoxon_test(
             return Err(UndefinedStatistic::TooMany);
         }
         PValueMethod::Exact => {
+            // Mid-ranks of ties end in a half; doubled, all of them are whole.
             let doubled_ranks = signed.iter().map(|entry| (2.0 * entry.1).round() as usize);
             let twice: Vec<usize> = doubled_ranks.collect();
             let observed = (2.0 * plus).round() as usize;
@@ -114,6 +115,7 @@ fn sums_of_signs(ranks: &[usize]) -> Vec<f64> {
     let mut reached = 0;
     for rank in ranks {
         reached += rank;
+        // Downwards, so that no rank is added twice.
         for at in (0..=reached).rev() {
             let with = at.checked_sub(*rank).map_or(0.0, |index| weights[index]);
             weights[at] = (weights[at] + with) / 2.0;

@@ -103,6 +103,7 @@ impl ParticipantResamples {
     fn corrected_tail_shares(&self, tails: [f64; 2]) -> Result<[f64; 2], UndefinedStatistic> {
         let n = self.values.len() as f64;
         let below = self.values.partition_point(|value| *value < self.estimate) as f64;
+        // Resamples that equal the estimate count by half on either side.
         let level = self.values.partition_point(|value| *value <= self.estimate) as f64 - below;
         let bias = normal_point((below + level / 2.0) / n).map_err(|_| UndefinedStatistic::NoSpread)?;
         let mean = self.jackknife.iter().sum::<f64>() / self.jackknife.len() as f64;

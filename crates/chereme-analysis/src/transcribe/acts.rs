@@ -143,6 +143,7 @@ impl<'a> MovingHand<'a> {
         let turns = track.hand_turn_vector(first, last).length();
         let changes = track.finger_angle_change(first, last);
         let reshaped = tuned().acts.reshaped * self.seen.loose;
+        // A straight path cannot become simpler, and a hand that neither turns nor reshapes keeps its part.
         if matches!(plain.path, PathForm::Straight { .. }) || (turns < tuned().acts.turned && changes < reshaped) {
             return plain;
         }
@@ -160,6 +161,7 @@ impl<'a> MovingHand<'a> {
         let from = self.own_parts(first, first);
         let mut to: Vec<(DVec3, f64)> = Vec::new();
         to.extend(self.own_parts(last, last).into_iter().map(|at| (at, 0.0)));
+        // A part of the first posture may stand elsewhere in the new handshape.
         if changes > reshaped {
             to.extend(self.own_parts(first, last).into_iter().map(|at| (at, 0.0)));
         }
@@ -171,6 +173,7 @@ impl<'a> MovingHand<'a> {
         let mut best = plain;
         for a in &from {
             for (n, (b, less)) in to.iter().enumerate() {
+                // One part from beginning to end is the plain path.
                 if a.distance(*b) < 1e-3 {
                     continue;
                 }
@@ -268,7 +271,9 @@ fn notated_direction_distance(path: &PathForm) -> f64 {
     let course = path.path_direction().normalize_or(DVec3::Z);
     let off = aim::nearest_notated_aim(course, false).residual.to_radians().sin();
     match path {
+        // The mean square of a sine over whole turns is one half.
         PathForm::Circle { long, .. } => off * long.length() * FRAC_1_SQRT_2,
+        // The mean square of a distance that grows evenly is a third of its greatest.
         _ => off * path.path_chord().length() / 3f64.sqrt(),
     }
 }
@@ -301,6 +306,7 @@ pub(super) fn find_hand_acts(
     let mut found_acts = Vec::new();
     let mut from = first;
     let (mut stretches, speeds) = find_moving_stretches(scene, mover, first, last);
+    // A hand that only turns about its wrist has no path, though its points move.
     if sways(scene, mover, first, last) {
         stretches.clear();
     }
@@ -311,6 +317,7 @@ pub(super) fn find_hand_acts(
     let mut begun = None;
     for stretch in stretches {
         let (start, end) = (*stretch.start(), *stretch.end());
+        // A single brief path may be all that the sign has.
         if several && is_brief(scene, mover, start, end) {
             from = end;
             continue;
@@ -403,6 +410,7 @@ fn on_the_spot(
     last: usize,
     plays: Option<&HandSway>,
 ) -> Vec<TranscribedAct> {
+    // The hand only pauses between two paths.
     if last < first + scene.seconds_to_frames(tuned().acts.gap) {
         return Vec::new();
     }
@@ -421,6 +429,7 @@ fn on_the_spot(
             grows: None,
         }
     };
+    // Fingers that play over the whole stretch explain every change of their shape.
     if let Some(plays) = plays {
         return vec![act(first..=last, ActKind::Sway(plays.clone()))];
     }
@@ -481,6 +490,7 @@ fn to_and_fro(
         let [a, b] = [&pair[0], &pair[1]];
         let [turn, shape] = changed(a.first_act_frame(), b.last_act_frame());
         let [there, reshaped] = changed(a.first_act_frame(), a.last_act_frame());
+        // The second act undoes more than half of the first.
         turn.hypot(shape) < 0.5 * there.hypot(reshaped)
     };
     if cut_acts.len() >= 3 && cut_acts.windows(2).all(back) {

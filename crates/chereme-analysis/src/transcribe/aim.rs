@@ -260,8 +260,10 @@ fn likely(own: [DVec3; 2], meant: [DVec3; 2], wrist: Option<&ForearmWristLimits>
         let parts = tuned().aim.spread.iter().zip(tuned().aim.wider);
         let density = |((share, spread), wider): (&(f64, f64), i32)| {
             let spread = spread * loose.powi(wider);
+            // A density over three axes of rotation has the third power of its spread.
             share * (-0.5 * (off / spread).powi(2)).exp() / spread.powi(3)
         };
+        // Far from every spread the sum underflows to 0, which has no logarithm.
         parts.map(density).sum::<f64>().max(f64::MIN_POSITIVE).ln()
     };
     let free = (of(orientation_angle_between(own, meant)), 0.0);
@@ -276,6 +278,7 @@ fn likely(own: [DVec3; 2], meant: [DVec3; 2], wrist: Option<&ForearmWristLimits>
 /// Returns the angle of the rotation between two orientations, each an axis and a palm at a right angle to
 /// it, in degrees.
 fn orientation_angle_between([a, p]: [DVec3; 2], [b, q]: [DVec3; 2]) -> f64 {
+    // The trace of a rotation is 1 more than twice the cosine of its angle.
     let trace = a.dot(b) + p.dot(q) + a.cross(p).dot(b.cross(q));
     ((trace - 1.0) / 2.0).clamp(-1.0, 1.0).acos().to_degrees()
 }

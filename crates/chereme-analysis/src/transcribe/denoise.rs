@@ -61,6 +61,7 @@ fn noise(rotations: &[DQuat]) -> f64 {
         .iter()
         .map(|turned| {
             let turned = DVec4::from(*turned);
+            // A quaternion and its negative are one rotation: neighbours must not jump between them.
             last = if turned.dot(last) < 0.0 { -turned } else { turned };
             last
         })
@@ -88,6 +89,7 @@ fn calm_joint_rotations(rotations: &[DQuat], noise: f64, per_second: f64) -> Vec
     for (stretch, mean) in longest_still_stretches(rotations, noise, per_second) {
         let weight = (stretch.len() as f64).powi(2);
         for n in stretch {
+            // Opposite signs of one rotation would cancel out.
             let sign = moving[n].dot(DQuat::from_vec4(mean)).signum();
             sums[n] += mean * (sign * weight);
         }
@@ -114,8 +116,10 @@ fn least_wrong(rotations: &[DQuat], noise: f64, per_second: f64) -> (Vec<DQuat>,
         let bell = bell(wide);
         let all = bell[0] + 2.0 * bell[1..].iter().sum::<f64>();
         let central_share = bell[0] / all;
+        // Stein's estimate; `central_share` is how far each frame still follows its own noise.
         let wrong = squares / rotations.len() as f64 + 3.0 * noise * noise * (2.0 * central_share - 1.0);
         if wrong < best.2 {
+            // Averaging divides the variance of independent noise by all² over the sum of squares.
             let square_sum = bell[0].powi(2) + 2.0 * bell[1..].iter().map(|weight| weight * weight).sum::<f64>();
             best = (smooth, all * all / square_sum, wrong);
         }
@@ -140,6 +144,8 @@ fn longest_still_stretches(
             let count = (end + 1 - first) as f64;
             // The squared distances from the mean; a quaternion has half of the angle.
             let scatter = 4.0 * (count - more.length_squared() / count);
+            // Of noise alone the scatter is chi-squared with this many degrees of freedom and twice that
+            // variance.
             let free = 3.0 * (count - 1.0);
             let most = free + tuned().denoise.odd * (2.0 * free).sqrt();
             if scatter > noise * noise * most {

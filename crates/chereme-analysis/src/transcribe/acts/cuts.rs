@@ -57,6 +57,7 @@ pub(in crate::transcribe) fn find_signing_frames(
         stretch.is_some_and(|range| rests(*range.end(), *range.start()) && *range.start() >= first)
     };
     let stirring = stretches.iter().rev().take_while(stirs).count();
+    // Without stretches this wraps around to a number at which there is none.
     let from = |stirring: usize| stretches.len().wrapping_sub(stirring + 1);
     if let Some(mut n) = [from(stirring), from(0)].into_iter().find(sinks) {
         while n > 0 && *stretches[n - 1].start() >= first && on(&stretches[n - 1], &stretches[n]) {
@@ -87,6 +88,7 @@ pub(super) fn find_moving_stretches(
         let (a, b) = (n.saturating_sub(1).max(first), (n + 1).min(last));
         points[a].distance(points[b]) / scene.frames_to_seconds((b - a).max(1))
     };
+    // A hand that turns about a point of its own does not move from its place.
     let slowest = |n: usize| {
         let speeds = mover.points.iter().map(|points| speed(points, n));
         speeds.fold(f64::MAX, f64::min)
@@ -105,6 +107,7 @@ pub(super) fn cut_at_minima(
     first: usize,
 ) -> Vec<RangeInclusive<usize>> {
     const CUT_PADDING_FRAMES: usize = 2;
+    // Stillness on either side lets a movement that fills the stretch begin and end.
     let mut padded = vec![0.0; CUT_PADDING_FRAMES];
     padded.extend(gaussian_smoothed_speeds(speeds, scene.clip));
     padded.extend([0.0; CUT_PADDING_FRAMES]);
@@ -170,6 +173,7 @@ pub(super) fn join_continued_stretches(
             goes_on.count()
         };
         let (on, round) = (follow(tuned().cuts.stops), follow(tuned().cuts.corners));
+        // The longest run that makes one figure comes first.
         let run_length = (1..=round).rev().find(|&more| {
             let path = mover.fit_hand_path(*first.start(), *left[more].end());
             match path.path {
@@ -184,6 +188,7 @@ pub(super) fn join_continued_stretches(
                     let most = if closed { tuned().cuts.flattened } else { 0.15 };
                     (more <= on || closed) && turns / ((more + 1) as f64) < 1.2 && path.residual < most * long.length()
                 }
+                // Two strokes are there and back, and no wave yet.
                 PathForm::Wave { .. } => more >= 2 && more <= on,
                 _ => false,
             }

@@ -45,6 +45,7 @@ pub(super) fn fold_repeated_acts(
     let mut folded_acts: Vec<TranscribedAct> = Vec::new();
     let mut n = 0;
     while n < acts.len() {
+        // Circles are counted by their turns, so that each ends the run.
         let run = |sign: f64| {
             let mut end = n + 1;
             while end < acts.len()
@@ -57,6 +58,7 @@ pub(super) fn fold_repeated_acts(
         };
         let mut act = acts[n].clone();
         let rounds = rounds(&acts[n..]);
+        // Three strokes to and fro are a repetition; two are there and back.
         let (to_and_fro, on) = (run(-1.0), run(1.0));
         act.grows = match (is_round(&act), to_and_fro >= 3) {
             (true, _) => None,
@@ -70,6 +72,7 @@ pub(super) fn fold_repeated_acts(
             act.until = acts[n + rounds - 1].until;
             n += rounds;
         } else if to_and_fro >= 3 {
+            // A stroke back counts with the stroke there.
             act.times = to_and_fro.div_ceil(2);
             act.repeat = choose_repeat(act.times, RepeatKind::FromStart, RepeatKind::FromStartSeveral);
             act.until = acts[n + to_and_fro - 1].until;

@@ -67,11 +67,13 @@ pub(super) fn find_wrist_sway(
     let swing = swings[most];
     let motions = [WristMotion::Twisting, WristMotion::Swinging, WristMotion::Nodding];
     let (y, z) = (&swings[1], &swings[2]);
+    // The area that both bends enclose, by the cross products of successive ones.
     let round: f64 = (1..turns.len())
         .map(|n| turns[n - 1].y * turns[n].z - turns[n - 1].z * turns[n].y)
         .sum::<f64>()
         / 2.0;
     let narrow = y.range.min(z.range) / y.range.max(z.range).max(1e-9);
+    // The area of an ellipse with these ranges.
     let full = std::f64::consts::PI * y.range * z.range / 4.0;
     if most != 0 && narrow > 0.45 && round.abs() > 0.5 * full {
         // As the signer sees it, from nodding over to swinging.
@@ -87,6 +89,7 @@ pub(super) fn find_wrist_sway(
             runner_up: Some((motions[most], swing.range / 2.0)),
         });
     }
+    // What starts at an end of its range goes there and back and does not swing about a middle.
     if !(0.2..=0.8).contains(&swing.start) {
         return None;
     }
@@ -125,6 +128,7 @@ pub(super) fn find_finger_play(
     if playing.len() < 2 {
         return None;
     }
+    // Fingers that bend together change the handshape; they do not play.
     let apart = playing
         .windows(2)
         .any(|pair| swing_correlation(&columns[pair[0]], &columns[pair[1]]).abs() < 0.75);
@@ -158,6 +162,7 @@ impl SwingStatistics {
             .fold((f64::MAX, f64::MIN), |(l, h), &v| (l.min(v), h.max(v)));
         let range = high - low;
         let (mut turning, mut up, mut edge) = (0, None, values[0]);
+        // A reversal counts from three tenths of the range on, so that trembling adds none.
         for &value in values {
             let back = match up {
                 None => {
