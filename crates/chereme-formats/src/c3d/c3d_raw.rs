@@ -269,6 +269,7 @@ pub fn read_c3d_document(bytes: &[u8]) -> Result<C3dDocument, C3dError> {
         return Err(C3dError::NoC3d);
     }
     let header = bytes.get(..C3D_BLOCK_BYTES).ok_or(C3dError::Short("header"))?;
+    // Blocks count from 1.
     let parameters_at = usize::from(header[0].max(1) - 1) * C3D_BLOCK_BYTES;
     let section = bytes.get(parameters_at..).ok_or(C3dError::Short("parameters"))?;
     let kind = *section.get(3).ok_or(C3dError::Short("parameters"))?;
@@ -314,6 +315,7 @@ pub fn read_c3d_document(bytes: &[u8]) -> Result<C3dDocument, C3dError> {
     let scale = parameters
         .parameter_number("POINT:SCALE")
         .map_or(real(7), |scale| scale as f32);
+    // Block 1 is the header, so that a smaller number says nothing.
     let data_block = parameters
         .parameter_number("POINT:DATA_START")
         .filter(|block| *block >= 2.0)
@@ -362,10 +364,12 @@ impl C3dDocument {
             room -= 1;
         }
         let named = self.parameters.parameter_number("POINT:FRAMES").unwrap_or(0.0) as usize;
+        // The count in the header may have begun again at 65,536.
         let turned = room - room.saturating_sub(self.promised_frames) % FRAME_COUNT_WRAP;
         if (self.promised_frames + 1..=room).contains(&named) {
             self.promised_frames = named;
         }
+        // A last frame of 65,535 in the header stands for any later one.
         let is_full = last == u16::MAX && self.promised_frames + self.first_frame as usize == FRAME_COUNT_WRAP;
         if room > self.promised_frames && is_full {
             self.promised_frames = room;
@@ -374,6 +378,7 @@ impl C3dDocument {
         }
         self.frames = self.promised_frames.min(room);
         let spare = room - self.frames;
+        // Less than a block only fills the last one up.
         self.unread_frames = match spare * size < C3D_BLOCK_BYTES {
             true => 0,
             false => spare,
@@ -402,6 +407,7 @@ fn analog_samples_per_frame(parameters: &C3dParameters, header: usize, per_frame
 fn first_last_frame_numbers(parameters: &C3dParameters, first: u16, last: u16) -> (u32, u32) {
     let trial = |name: &str| {
         let words = parameters.unsigned_parameter_numbers(name);
+        // Two words of 16 bits, the lower one first.
         match words[..] {
             [low, high, ..] => Some(low as u32 + ((high as u32) << 16)),
             [one] => Some(one as u32),
@@ -428,6 +434,7 @@ fn header_events(header: &[u8], processor: C3dProcessor) -> Vec<(f32, String)> {
     if word(150) != EVENTS_KEY {
         return Vec::new();
     }
+    // The header has room for 18 events.
     let count = usize::from(word(151)).min(18);
     let event = |at: usize| {
         let time = 2 * (153 - 1) + 4 * at;
@@ -449,6 +456,7 @@ fn read_c3d_parameters(section: &[u8], processor: C3dProcessor) -> C3dParameters
         let Some(record) = read_parameter_record(section, record_start, processor) else {
             break;
         };
+        // A group has the negative number of its parameters, which may come before it.
         if record.group < 0 {
             groups.insert(record.group.unsigned_abs(), record.name);
         } else if record.group > 0 {
@@ -477,6 +485,7 @@ struct C3dParameterRecord<'b> {
 }
 
 fn read_parameter_record(section: &[u8], at: usize, processor: C3dProcessor) -> Option<C3dParameterRecord<'_>> {
+    // A negative length means that the parameter is locked.
     let length = usize::from((*section.get(at)? as i8).unsigned_abs());
     let group = *section.get(at + 1)? as i8;
     if length == 0 {
@@ -491,6 +500,7 @@ fn read_parameter_record(section: &[u8], at: usize, processor: C3dProcessor) -> 
         group,
         name: name.trim().to_uppercase(),
         body: &section[offset_at + 2..],
+        // An offset that does not lead past itself ends the chain.
         next: (offset > 2).then_some(offset_at + offset),
     })
 }

@@ -134,6 +134,7 @@ pub fn write_c3d(markers: &MarkerTrack, offset: RecordingInstant) -> Result<Vec<
     let mut head = build_c3d_parameters(&labels, frames, rate.per_second() as f32, unit, scale, convention.axes);
     head.link_parameter_record();
     head.bytes.extend([0, 0]);
+    // Four bytes of the section come before the parameters.
     head.bytes
         .resize((head.bytes.len() + 4).next_multiple_of(C3D_WRITE_BLOCK_BYTES) - 4, 0);
     let blocks = (head.bytes.len() + 4) / C3D_WRITE_BLOCK_BYTES;
@@ -146,6 +147,7 @@ pub fn write_c3d(markers: &MarkerTrack, offset: RecordingInstant) -> Result<Vec<
     out[2..4].copy_from_slice(&word(points));
     out[6..8].copy_from_slice(&word(first));
     out[8..10].copy_from_slice(&word(last));
+    // A negative scale says that points are floats.
     out[12..16].copy_from_slice(&(-scale).to_le_bytes());
     out[16..18].copy_from_slice(&word(data));
     out[20..24].copy_from_slice(&(rate.per_second() as f32).to_le_bytes());
@@ -155,6 +157,7 @@ pub fn write_c3d(markers: &MarkerTrack, offset: RecordingInstant) -> Result<Vec<
         for point in markers.marker_points() {
             let Some(at) = point.marker_position(frame) else {
                 out.extend([0u8; 12]);
+                // A negative fourth number marks a point that was not seen.
                 out.extend((-1.0f32).to_le_bytes());
                 continue;
             };
@@ -203,6 +206,7 @@ fn residual_scale(markers: &MarkerTrack, factor: f64) -> f32 {
     if most > 0.0 && most.is_finite() {
         (most / 255.0) as f32
     } else {
+        // Without residuals nothing is counted in this unit.
         0.01
     }
 }
@@ -232,11 +236,13 @@ fn build_c3d_parameters(
     axes: SignerAxes,
 ) -> C3dParameterWriter {
     let mut it = C3dParameterWriter::default();
+    // Readers take these 16 bits as unsigned.
     let short = |number: usize| number.min(usize::from(u16::MAX)) as u16 as i16;
     it.write_parameter_group("POINT", 1);
     it.parameter(1, "USED", &WrittenParameterValue::Integer(short(labels.len())));
     it.parameter(1, "SCALE", &WrittenParameterValue::Float(-scale));
     it.parameter(1, "RATE", &WrittenParameterValue::Float(rate));
+    // This and the two fields of TRIAL are set when the length of the parameters is known.
     it.parameter(1, "DATA_START", &WrittenParameterValue::Integer(0));
     it.parameter(1, "FRAMES", &WrittenParameterValue::Integer(short(frames)));
     it.parameter(1, "UNITS", &WrittenParameterValue::Text(unit));
@@ -272,6 +278,7 @@ fn set_start(bytes: &mut [u8], data: usize, first: usize, last: usize) {
     let mut set = |name: &str, words: &[u16]| {
         let name_start = bytes.windows(name.len()).position(|window| window == name.as_bytes());
         let Some(at) = name_start else { return };
+        // After the name come two bytes of offset, one of type, and the number of dimensions.
         let dims = usize::from(bytes[at + name.len() + 3]);
         let mut to = at + name.len() + 4 + dims;
         for word in words {

@@ -306,6 +306,7 @@ impl C3dReader<'_> {
             .is_some_and(|format| format.eq_ignore_ascii_case("unsigned"));
         let general = parameters.parameter_number("ANALOG:GEN_SCALE").unwrap_or(1.0);
         let scales = parameters.unsigned_parameter_numbers("ANALOG:SCALE");
+        // Offsets are signed as the samples are.
         let offsets = match is_unsigned {
             true => parameters.unsigned_parameter_numbers("ANALOG:OFFSET"),
             false => parameters.signed_parameter_numbers("ANALOG:OFFSET"),
@@ -362,6 +363,7 @@ impl C3dReader<'_> {
             parameters.parameter_texts("EVENT:CONTEXTS"),
         );
         for (at, time) in times.chunks_exact(2).enumerate() {
+            // EVENT:TIMES holds pairs of minutes and seconds.
             let seconds = time[0] * 60.0 + time[1];
             let word = |texts: &[&str]| texts.get(at).copied().unwrap_or_default().to_owned();
             let both_words = [word(&contexts), word(&labels)];

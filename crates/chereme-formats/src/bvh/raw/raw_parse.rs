@@ -52,6 +52,7 @@ pub(super) fn read_head<R: Read>(
 fn check_text<R: Read>(source: &mut ByteSource<R>, oddities: &mut BvhOddities) -> Result<(), BvhError> {
     while source.held_bytes().len() < 512 && source.fill_source_window()? {}
     let start = &source.held_bytes()[..source.held_bytes().len().min(512)];
+    // A byte order mark of UTF-16, or letters with zeros between them.
     if matches!(
         start,
         [0xff, 0xfe, ..] | [0xfe, 0xff, ..] | [0, b'A'..=b'z', ..] | [b'A'..=b'z', 0, ..]
@@ -204,6 +205,7 @@ impl<R: Read> HierarchyParser<'_, R> {
         if let Ok(name) = std::str::from_utf8(bytes) {
             return Ok(name.to_owned());
         }
+        // Latin-1 has a letter for every byte.
         let name: String = bytes.iter().map(|&b| char::from(b)).collect();
         self.oddities
             .note_oddity(BvhOddity::NameNotUtf8, line, format!("{name:?}"));
@@ -284,6 +286,7 @@ impl<R: Read> HierarchyParser<'_, R> {
             .error_at_line(line));
         }
         let words = self.channel_words(line)?;
+        // The count may be missing or wrong; the names decide.
         let (count, names) = match words.split_first() {
             Some((first, names)) if BvhChannel::from_word(first).is_none() => (first.parse::<usize>().ok(), names),
             _ => (None, &words[..]),
@@ -329,6 +332,7 @@ impl<R: Read> HierarchyParser<'_, R> {
             };
             words.push(word);
             self.channels += 1;
+            // The count before each joint's channels is a word, too.
             if self.channels > CHANNEL_LIMIT + self.hierarchy.joints.len() {
                 return Err(BvhErrorKind::TooMany {
                     limit: CHANNEL_LIMIT,
@@ -343,6 +347,7 @@ impl<R: Read> HierarchyParser<'_, R> {
     /// Returns whether the next word belongs to the channels: on their line anything but a keyword, below
     /// it a channel.
     fn continues_channels(&mut self, same_line: bool) -> Result<bool, BvhError> {
+        // No keyword and no channel is longer than 16 bytes.
         while self.source.held_bytes().len() < 16 && self.source.fill_source_window()? {}
         let word_bytes = self
             .source
@@ -384,6 +389,7 @@ impl<R: Read> HierarchyParser<'_, R> {
             .trim_ascii();
         let rest = String::from_utf8_lossy(rest_bytes).into_owned();
         let spelling = format!("{word} {rest}");
+        // After `EndSite` in one word all of the rest is a name.
         let name = rest
             .get(..4)
             .filter(|site| site.eq_ignore_ascii_case("site"))

@@ -99,6 +99,7 @@ impl<R: Read> ByteSource<R> {
     pub(super) fn take_source_byte(&mut self) {
         let byte = self.buffer[self.at];
         self.at += 1;
+        // Only the byte after a CR shows whether the line ended with CR alone.
         if self.after_return && byte != b'\n' {
             self.cr.get_or_insert(self.line - 1);
         }
@@ -163,6 +164,7 @@ pub(super) fn is_blank(byte: u8) -> bool {
 
 /// Returns the token as displayable text: at most forty characters.
 pub(super) fn shown_token_bytes(token: &[u8]) -> String {
+    // Forty characters have at most 160 bytes.
     let text = String::from_utf8_lossy(&token[..token.len().min(160)]);
     let mut short: String = text.chars().take(40).collect();
     if short.len() < token.len() && short.chars().count() == 40 {

@@ -166,6 +166,7 @@ fn push_hierarchy(text: &mut Vec<u8>, hierarchy: &BvhHierarchy) -> Result<(), Bv
         if name.contains(['{', '}', '\n', '\r']) || name.trim_ascii() != name {
             return Err(BvhWriteError::Name(name.clone()));
         }
+        // Joints come depth first: open ones below the parent are complete.
         while open.last().copied() != joint.parent {
             open.pop().ok_or_else(|| BvhWriteError::Order(name.clone()))?;
             push_line(text, open.len(), "}");

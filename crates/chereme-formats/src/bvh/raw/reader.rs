@@ -172,6 +172,7 @@ impl<R: Read> BvhReader<R> {
     /// Reads numbers up to the end of a row, or one number, or the end.
     fn read_row_step(&mut self, block: &mut MotionBlock) -> Result<(), BvhError> {
         if self.next_is_number(block)? {
+            // After a row that ended early any number is an error, which the slow way reports.
             if self.short.is_none() {
                 let tokens = self.source.whole_tokens();
                 let slots = &mut self.tile[self.column..];
@@ -249,6 +250,7 @@ impl<R: Read> BvhReader<R> {
     fn no_number(&mut self, token: &[u8], why: NotANumber, line: u64) -> Result<(), BvhError> {
         let all_frames = self.header.declared_frames.is_some_and(|all| self.rows >= all);
         let between_rows = self.column == 0 && self.on_line == 0 && self.short.is_none();
+        // Text after the last row that was announced does no harm.
         if why == NotANumber::Garbage && all_frames && between_rows {
             self.oddities.note_oddity(
                 BvhOddity::TextAfterMotion,
@@ -261,6 +263,7 @@ impl<R: Read> BvhReader<R> {
         if let Some((line, found)) = self.short {
             return Err(self.width_error(line, found));
         }
+        // A number that the end of the file cuts off becomes valid with another digit.
         if self.source.peek_source_byte()?.is_none() && FileNumber::parse_file_number(&[token, b"0"].concat()).is_ok() {
             self.column_cut(line);
             return Ok(());
@@ -315,6 +318,7 @@ impl<R: Read> BvhReader<R> {
             self.column = 0;
             self.tile_rows += 1;
             self.rows += 1;
+            // A single frame needs no time between frames.
             if self.rows == 2 {
                 self.header.check_timed()?;
             }
@@ -343,6 +347,7 @@ impl<R: Read> BvhReader<R> {
             return Ok(());
         };
         let expected = self.columns.len();
+        // Where rows share lines, the width of a line says nothing about its last row.
         let many_per_line = line == self.motion_line || self.oddities.has_oddity(BvhOddity::SeveralFramesOnLine);
         if found > expected as u64 && !many_per_line {
             return Err(self.width_error(line, found));

@@ -45,6 +45,7 @@ impl RootOrder {
         if let Some(root) = hierarchy.joints.first().filter(|root| root.channels.len() == 6) {
             let (first, last) = root.channels.split_at(3);
             suspect = first.iter().all(|c| c.is_position()) && last.iter().all(|c| c.is_rotation());
+            // CHANNELS may name the axes in any order.
             for (value, channel) in offset.iter_mut().zip(first) {
                 *value = root.offset[channel.channel_axis()].to_f64();
             }
@@ -53,6 +54,7 @@ impl RootOrder {
         Self {
             offset,
             tolerance: 0.1 * length,
+            // An OFFSET of zero is what a body at rest has for rotations, too.
             suspect: suspect && length > 0.0,
             frames: 0,
         }
