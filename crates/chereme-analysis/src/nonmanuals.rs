@@ -126,6 +126,7 @@ fn from_median(curve: Option<&[f64]>) -> Vec<f64> {
     };
     let mut sorted: Vec<f64> = curve.iter().copied().filter(|value| value.is_finite()).collect();
     sorted.sort_by(f64::total_cmp);
+    // Actions are rarer than the face at rest, which the median therefore shows.
     let median = sorted.get(sorted.len() / 2).copied().unwrap_or_default();
     curve.iter().map(|value| value - median).collect()
 }
@@ -311,6 +312,7 @@ fn swings(curve: &[f64], rate: f64, value: &'static str) -> Vec<NonmanualProposa
             all.push(NonmanualProposal {
                 feature: "head",
                 value,
+                // Each further half swing halves the doubt.
                 confidence: 1.0 - 0.5_f64.powi(count as i32 - MIN_HALF_SWINGS as i32 + 1),
                 why: format!(
                     "{count} half swings of {mean:.1} degrees; {MIN_HALF_SWINGS} of {MIN_HEAD_SWING_DEGREES} are enough"
@@ -318,6 +320,7 @@ fn swings(curve: &[f64], rate: f64, value: &'static str) -> Vec<NonmanualProposa
                 frames,
             });
         }
+        // The last turning point may begin the next run.
         turn_index = end.max(turn_index + 1);
     }
     all

@@ -221,6 +221,7 @@ fn compute_phased_score(
             (Some(a), Some(b)) => {
                 let alignment_result = align_phase_series(a, b, options, explain);
                 let aligned = alignment_result.map_err(|cause| PhasedError::Phase { phase, cause })?;
+                // The asymmetric pattern counts every frame of the query once.
                 let normalized = aligned.distance / a.series_frame_count() as f64;
                 sum += options.weights[n] * normalized;
                 compared += 1;
@@ -265,6 +266,7 @@ fn align_phase_series(
         window: AlignmentWindow::SakoeChiba(options.window),
         ..dtw::DtwOptions::default()
     };
+    // A band keeps the frames as they are; resampling is the last resort.
     let policies = match options.no_path {
         NoPath::Refuse => &[DtwPathPolicy::Refuse][..],
         NoPath::Adapt => &[DtwPathPolicy::SlantedBand, DtwPathPolicy::Resample],

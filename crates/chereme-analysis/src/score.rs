@@ -222,6 +222,7 @@ pub fn score_as(
         all.collect()
     };
     let still = [fingers(a.anatomy, uncaptured.0), fingers(b.anatomy, uncaptured.1)];
+    // Fingers that nobody captured must not be the worst.
     let mut seen = pairs.clone();
     seen.retain(|(left, right)| !still[0].contains(left) && !still[1].contains(right));
     let largest = largest_error(a, b, &seen, &aligned.path);
@@ -290,6 +291,7 @@ fn extract_component_features(performed: PerformedClip<'_>) -> ComponentFeatures
             features.insert(key, columns);
         }
     }
+    // From places whose gaps are filled, so that no gap is a jump.
     for side in BodySide::BOTH_SIDES {
         if let Some(places) = features.get(&(SignComponent::Placement, side)) {
             let velocities = places
@@ -439,6 +441,7 @@ fn pairs_of(a: PerformedClip<'_>, b: PerformedClip<'_>) -> Vec<(usize, usize)> {
     if same {
         return (0..first.len()).map(|j| (j, j)).collect();
     }
+    // Of equal names the first joint remains, because it is written last.
     let names: BTreeMap<&str, usize> = second
         .iter()
         .enumerate()
@@ -448,6 +451,7 @@ fn pairs_of(a: PerformedClip<'_>, b: PerformedClip<'_>) -> Vec<(usize, usize)> {
     let counterpart = |j: usize| match a.anatomy.part_of(j) {
         Some(part) => b.anatomy.part_joint(part),
         None => {
+            // A part of the body is no counterpart of a joint that is none.
             let other = names.get(first[j].name.as_str()).copied();
             other.filter(|&other| b.anatomy.part_of(other).is_none())
         }

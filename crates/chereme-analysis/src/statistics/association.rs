@@ -95,6 +95,7 @@ impl ShuffledAssociation {
         let mut as_large = [0_usize; 2];
         for done in 0..samples {
             hear(done)?;
+            // Fisher and Yates: every order is equally likely.
             for at in (1..table.second.len()).rev() {
                 table.second.swap(at, random.random_below(at + 1));
             }
@@ -177,6 +178,8 @@ impl ValuePairTable {
                 self.counts[cell] += 1;
             }
             for cell in cells {
+                // The first pair of a cell takes its whole count, and leaves the cell empty for the next
+                // shuffle.
                 let count = std::mem::take(&mut self.counts[cell]);
                 if count > 0 {
                     add(cell / columns.len(), cell % columns.len(), f64::from(count));
@@ -187,6 +190,7 @@ impl ValuePairTable {
             n: self.first.len(),
             rows: rows.len(),
             columns: columns.len(),
+            // Rounding may leave either sum just below 0.
             bits: (bits / n).max(0.0),
             chi_square: (squares - n).max(0.0),
             df: (rows.len() - 1) * (columns.len() - 1),

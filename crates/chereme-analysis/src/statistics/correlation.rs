@@ -42,6 +42,7 @@ pub fn spearman_correlation(x: &[f64], y: &[f64]) -> Result<RankCorrelation, Und
     let t = rho * (df / (1.0 - rho * rho)).sqrt();
     let student = StudentsT::new(0.0, 1.0, df).ok();
     let p = student.map(|distribution| {
+        // A correlation of 1 has an infinite t.
         if t.is_finite() {
             2.0 * distribution.sf(t.abs())
         } else {
@@ -119,6 +120,7 @@ fn concordance_deviation(x: &ValueRanks, y: &ValueRanks) -> f64 {
     let [v1, w1] = sum(|t| t * (t - 1.0) * (2.0 * t + 5.0));
     let [v2, w2] = sum(|t| t * (t - 1.0) * (t - 2.0));
     let [v3, w3] = sum(|t| t * (t - 1.0) / 2.0);
+    // The term of triples needs three things.
     let third = if n > 2.0 {
         v2 * w2 / (9.0 * pairs * (n - 2.0))
     } else {

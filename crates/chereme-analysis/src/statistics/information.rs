@@ -82,6 +82,7 @@ impl EqualityClasses {
             return Vec::new();
         }
         let without = |size: &usize| entropy_bits(n - 1, all - count_log_weight(*size) + count_log_weight(size - 1));
+        // Whichever thing of a class is left out, the same entropy remains.
         let by_class: Vec<f64> = self.sizes.iter().map(without).collect();
         self.of.iter().map(|class| by_class[*class]).collect()
     }
@@ -186,6 +187,7 @@ pub fn find_value_contrasts(rest: &EqualityClasses, values: &[u32]) -> Result<Ve
     for (class, value) in rest.of.iter().zip(values) {
         *counts.entry((*class, *value)).or_default() += 1;
     }
+    // Sorted by class, as the pieces below need.
     let counts: Vec<((usize, u32), usize)> = counts.into_iter().collect();
     let mut pair_sums: BTreeMap<[u32; 2], (usize, f64)> = BTreeMap::new();
     let mut looked_at = 0;
@@ -198,6 +200,7 @@ pub fn find_value_contrasts(rest: &EqualityClasses, values: &[u32]) -> Result<Ve
             for ((_, other), b) in &alike[at + 1..] {
                 let entry = pair_sums.entry([*one, *other]).or_default();
                 entry.0 += a * b;
+                // The sum loses exactly this if the two values become one.
                 entry.1 += count_log_weight(a + b) - count_log_weight(*a) - count_log_weight(*b);
             }
         }

@@ -121,6 +121,7 @@ impl OrdinalData<'_> {
         for step in 0..MAX_NEWTON_STEPS {
             let (gradient, information) = self.likelihood_derivatives(&point);
             let factor = information.cholesky_factor().ok_or(UndefinedStatistic::Separated);
+            // At the start only dependent columns make the information singular; later separation does, too.
             if step == 0
                 && !factor
                     .as_ref()
@@ -130,6 +131,7 @@ impl OrdinalData<'_> {
             }
             let factor = factor?;
             let change = factor.solve_factored(&gradient);
+            // Newton's decrement, which is in proportion to the gain that is left.
             let gain: f64 = change.iter().zip(&gradient).map(|(a, b)| a * b).sum();
             if gain < 1e-18 * (1.0 + likelihood.abs()) {
                 return Ok(LikelihoodMaximum {
@@ -138,6 +140,7 @@ impl OrdinalData<'_> {
                     likelihood,
                 });
             }
+            // A full step may go too far; it is halved until the likelihood does not fall.
             let (mut share, mut next) = (1.0, point.clone());
             loop {
                 for ((own, from), by) in next.iter_mut().zip(&point).zip(&change) {
@@ -195,6 +198,7 @@ impl OrdinalData<'_> {
         let mut information = DenseMatrix::zero_matrix(size, size);
         for (at, place) in self.places.iter().enumerate() {
             let ends = self.answer_threshold_ends(at, point);
+            // An answer that the model takes for impossible must not divide by zero.
             let share = share_between(ends).max(f64::MIN_POSITIVE);
             let [low, high] = ends.map(|x| logistic_density(x) / share);
             let [low_slope, high_slope] = ends.map(|x| density_slope(x) / share);

@@ -53,6 +53,7 @@ pub fn fisher_exact_test(table: [[u64; 2]; 2]) -> Result<FisherResult, Undefined
         return Err(UndefinedStatistic::Empty);
     }
     let (low, high) = (row.saturating_sub(b + d), row.min(column));
+    // The hypergeometric weight of the next table over that of this one.
     let ratio = |x: u64| {
         let (up, down) = ((row - x) * (column - x), (x + 1) * (all + x + 1 - row - column));
         up as f64 / down as f64
@@ -84,6 +85,7 @@ pub fn mcnemar_exact_test(b: u64, c: u64) -> Result<f64, UndefinedStatistic> {
 
 /// Returns the weights of `low..=high` relative to the greatest, from the ratio of each weight to the one before.
 fn relative_weights(low: u64, high: u64, ratio: impl Fn(u64) -> f64) -> Vec<f64> {
+    // From the greatest weight outwards, so that nothing overflows.
     let mode = (low..high).find(|x| ratio(*x) < 1.0).unwrap_or(high);
     let mut weights = vec![1.0; (high - low + 1) as usize];
     for x in (low..mode).rev() {

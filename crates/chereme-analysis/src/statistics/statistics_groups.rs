@@ -64,6 +64,7 @@ pub fn mann_whitney(
             return Err(UndefinedStatistic::TooMany);
         }
         PValueMethod::Exact => {
+            // With ties U may end in a half; twice U is whole.
             let observed = (2.0 * u).round() as usize;
             exact_p(&twice_u_weights(&all.ties, n[0]), observed, 2 * n[0] * n[1], side)
         }
@@ -87,6 +88,7 @@ fn twice_u_weights(ties: &[usize], size: usize) -> Vec<f64> {
     table[0][0] = 1.0;
     let mut seen: usize = 0;
     for t in ties {
+        // Downwards, so that no value is shared out twice.
         for own in (seen.saturating_sub(second)..=seen.min(size)).rev() {
             let others = seen - own;
             let row = std::mem::replace(&mut table[own], vec![0.0; width]);
@@ -100,6 +102,7 @@ fn twice_u_weights(ties: &[usize], size: usize) -> Vec<f64> {
                         *sum += choices * count;
                     }
                 }
+                // The next binomial coefficient follows from this one.
                 choices *= left as f64 / (a + 1) as f64;
             }
         }
@@ -298,6 +301,7 @@ pub fn holm_p_values(p: &[f64]) -> Vec<f64> {
     let mut corrected = vec![1.0; p.len()];
     let mut most: f64 = 0.0;
     for (place, own) in order.into_iter().enumerate() {
+        // No corrected p is below that of a smaller p.
         most = most.max(p[own] * (p.len() - place) as f64).min(1.0);
         corrected[own] = most;
     }
