@@ -43,6 +43,7 @@ pub(crate) fn open_noughts(names: &[String], columns: &mut [Vec<Option<FileNumbe
             _ => has_places && !is_origin(name),
         };
         if !is_far {
+            // An origin is at 0 0 0 by its nature.
             left += if has_places && is_origin(name) { 0 } else { noughts };
             continue;
         }

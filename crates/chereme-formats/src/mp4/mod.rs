@@ -165,6 +165,7 @@ impl Mp4Container {
     #[must_use]
     pub fn ticks_to_micros(&self, ticks: i64) -> i64 {
         let scale = i128::from(self.timescale.max(1));
+        // To the nearest microsecond, before 0 too.
         let micros = (i128::from(ticks) * 1_000_000 + scale / 2).div_euclid(scale);
         i64::try_from(micros).unwrap_or_default()
     }

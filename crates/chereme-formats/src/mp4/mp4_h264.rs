@@ -34,6 +34,7 @@ pub fn read_avc_configuration(bytes: &[u8]) -> Result<AvcConfiguration, Mp4Error
     let length = usize::from(bytes.get(4).ok_or_else(short)? & 3) + 1;
     let mut sets = Vec::new();
     let mut set_start = 5;
+    // Five bits count sequence parameter sets, eight count picture parameter sets.
     for mask in [0x1f, 0xff] {
         let count = bytes.get(set_start).ok_or_else(short)? & mask;
         set_start += 1;
@@ -89,6 +90,7 @@ pub fn split_stream_pieces(stream: &[u8]) -> impl Iterator<Item = &[u8]> {
     let ends = piece_ends.into_iter().chain([stream.len()]);
     starts.into_iter().zip(ends).map(|(start, end)| {
         let piece = &stream[start..end];
+        // Zeros before a start code belong to no piece.
         let zeros = piece.iter().rev().take_while(|byte| **byte == 0).count();
         &piece[..piece.len() - zeros]
     })
@@ -119,8 +121,10 @@ pub fn is_refresh(piece: &[u8]) -> bool {
 pub fn read_sequence_parameters(piece: &[u8]) -> Result<SequenceParameterSet, Mp4Error> {
     let mut bits = PieceBits::bits_from_piece(piece.get(1..).unwrap_or_default());
     let profile = bits.read_bit_number(8)? as u8;
+    // Flags of constraints and the level; then the number of the set.
     bits.read_bit_number(16)?;
     bits.read_exp_golomb()?;
+    // These profiles state their format of colours (ITU-T H.264, 7.3.2.1.1).
     if [100, 110, 122, 244, 44, 83, 86, 118, 128, 138, 139, 134, 135].contains(&profile) {
         let chroma = bits.read_exp_golomb()?;
         if chroma == 3 {
@@ -172,6 +176,7 @@ pub fn read_sequence_parameters(piece: &[u8]) -> Result<SequenceParameterSet, Mp
     }
     let mut colours = None;
     if bits.read_bit_number(1)? == 1 {
+        // Of the shapes of a pixel, 255 is one whose sides follow in full.
         if bits.read_bit_number(1)? == 1 && bits.read_bit_number(8)? == 255 {
             bits.read_bit_number(32)?;
         }
@@ -208,6 +213,7 @@ impl PieceBits {
         let mut bytes = Vec::with_capacity(piece.len().min(1024));
         let mut zeros = 0;
         for byte in piece.iter().take(1024) {
+            // A 3 after two zeros only keeps what follows from looking like a start code.
             if zeros >= 2 && *byte == 3 {
                 zeros = 0;
                 continue;

@@ -34,6 +34,7 @@ pub fn read_mp4_index(input: &mut (impl Read + Seek)) -> Result<(Mp4Container, V
         at: place.from,
         bytes: &bytes,
     };
+    // In version 1 two times of 64 bits come before it.
     let movie_scale = match moov.find_child_box(b"mvhd") {
         Some(mvhd) => mvhd.box_u32_at(if mvhd.box_version()? == 1 { 20 } else { 12 })?,
         None => 0,
@@ -135,6 +136,7 @@ fn read_picture_track(trak: InnerBox<'_>) -> Result<Mp4Container, Mp4Error> {
     }
     let coding_box = find_box_at_path(trak, &[b"mdia", b"minf", b"stbl", b"stsd"]);
     let stsd = coding_box.ok_or_else(|| trak.inner_box_error("it does not say how it is coded (stsd)"))?;
+    // Version, flags and the number of entries come before the first.
     let first_entry = stsd.child_boxes(8).next();
     let entry = first_entry.ok_or_else(|| stsd.inner_box_error("it is empty"))?;
     let mut coding = box_kind_letters(entry.kind);
@@ -145,6 +147,7 @@ fn read_picture_track(trak: InnerBox<'_>) -> Result<Mp4Container, Mp4Error> {
         match &inner.kind {
             b"avcC" => configuration = inner.bytes.to_vec(),
             b"colr" => colours = colours.or(said_colours(inner)),
+            // Encrypted pictures cannot be decoded, whatever their coding.
             b"sinf" => "encv".clone_into(&mut coding),
             _ => {}
         }
@@ -177,6 +180,7 @@ fn said_colours(colr: InnerBox<'_>) -> Option<PictureColours> {
 fn read_track_rotation(trak: InnerBox<'_>) -> PictureRotation {
     let matrix_terms = || {
         let tkhd = trak.find_child_box(b"tkhd")?;
+        // Times before the matrix have 64 bits in version 1, and 32 otherwise.
         let matrix_start = if tkhd.box_version().ok()? == 1 { 52 } else { 40 };
         let term = |index: usize| Some((tkhd.box_u32_at(matrix_start + 4 * index).ok()?.cast_signed()).signum());
         Some([term(0)?, term(1)?, term(3)?, term(4)?])
@@ -218,6 +222,7 @@ fn read_edit_list(
                 i64::try_from(ticks).unwrap_or(i64::MAX)
             }
         };
+        // An edit from before the track is empty: at the start it delays the film.
         if from < 0 {
             if pieces == 0 {
                 edit.delay = edit.delay.saturating_add(ticks);

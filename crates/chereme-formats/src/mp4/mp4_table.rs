@@ -47,6 +47,7 @@ pub(super) fn frames_after_edit(shape: FrameListBuilder) -> Vec<CodedFrame> {
         frame.hidden = before || until.is_some_and(|until| frame.shown >= until);
         frame.shown = frame.shown.saturating_sub(from).saturating_add(delay);
     }
+    // Without any sync frame decoding begins at the first.
     if !frames.iter().any(|frame| frame.sync)
         && let Some(first) = frames.first_mut()
     {
@@ -125,6 +126,7 @@ pub(super) fn add_sample_frames(stbl: InnerBox<'_>, shape: &mut FrameListBuilder
     shape.beyond += sizes.len().saturating_sub(offsets.len());
     let (mut time, mut last) = (0_i64, 0);
     for (at, (size, offset)) in sizes.iter().zip(offsets).enumerate() {
+        // A table that is too short goes on with its last value.
         let duration = durations.next().unwrap_or(last);
         last = duration;
         // In version 0 shifts are positive, but cameras write negative ones all the same.
@@ -192,6 +194,7 @@ fn offsets(stbl: InnerBox<'_>, sizes: &[u32]) -> Result<Vec<u64>, Mp4Error> {
     let mut row = 0;
     for (index, chunk) in chunks.iter().enumerate() {
         let number = index as u64 + 1;
+        // A row names the first chunk for which it holds.
         while rows.get(row + 1).is_some_and(|next| u64::from(next.0) <= number) {
             row += 1;
         }

@@ -66,6 +66,7 @@ impl Mp4Muxer {
                 self.samples.extend_from_slice(piece);
             }
         }
+        // Parameter sets alone are no picture.
         if self.samples.len() == before {
             return;
         }
@@ -204,6 +205,7 @@ impl Mp4Muxer {
             bytes.extend(boxed(b"avcC", |it| {
                 it.push(1);
                 it.extend_from_slice(&self.sequence[1..4]);
+                // Lengths of four bytes, and one sequence parameter set.
                 it.extend_from_slice(&[0xff, 0xe1]);
                 it.extend_from_slice(&(self.sequence.len() as u16).to_be_bytes());
                 it.extend_from_slice(&self.sequence);
@@ -218,6 +220,7 @@ impl Mp4Muxer {
             bytes.extend(boxed(b"colr", |it| {
                 it.extend_from_slice(b"nclx");
                 let matrix = u16::from(colours.matrix);
+                // Primaries and transfer get the number of the matrix.
                 for value in [matrix, matrix, matrix] {
                     it.extend_from_slice(&value.to_be_bytes());
                 }

@@ -12,6 +12,7 @@ pub(super) struct TableTextLines<'t> {
 impl<'t> TableTextLines<'t> {
     pub(super) fn from_table_text(text: &'t str) -> Self {
         let is_whole = text.ends_with(['\n', '\r']);
+        // Without any LF the lines end with CR alone.
         let text = match text.contains('\n') {
             true => Cow::Borrowed(text),
             false => Cow::Owned(text.replace('\r', "\n")),
@@ -59,6 +60,7 @@ impl<'t> TableTextLines<'t> {
     /// Returns the first lines that are not blank, without one like `sep=;`.
     pub(super) fn first_filled_lines(&self, count: usize) -> Vec<(u64, &str)> {
         let filled_lines = self.filled_lines();
+        // This line tells a spreadsheet the delimiter.
         let filled = filled_lines.filter(|(_, line)| !line.trim_matches('"').starts_with("sep="));
         filled.take(count).collect()
     }

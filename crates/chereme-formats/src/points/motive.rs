@@ -44,6 +44,7 @@ pub(super) fn read_motive_layout(
 ) -> Result<PointTableLayout, PointTableError> {
     let first = lines.first_filled_lines(MAX_MOTIVE_HEADER_ROWS);
     let (_, pairs) = *first.first().ok_or(PointTableError::Empty)?;
+    // The delimiter is whatever follows the first key.
     let after = pairs.trim_start_matches('"').get("format version".len()..);
     let first_character = after.and_then(|rest| rest.trim_start_matches(['"', ' ']).chars().next());
     let delimiter = first_character
@@ -63,6 +64,7 @@ pub(super) fn read_motive_layout(
         .find_map(&stated);
     let title = |at: usize| header.axes.get(at).copied().unwrap_or_default();
     let is_time = |at: &usize| title(*at).to_lowercase().starts_with("time (");
+    // Frame and time are among the first columns.
     let time = (0..header.axes.len().min(3)).find(is_time);
     let is_local = stated("Coordinate Space").is_some_and(|value| value.eq_ignore_ascii_case("local"));
     let points = collect_motive_points(&header, is_local, findings)?;
@@ -86,6 +88,7 @@ pub(super) fn read_motive_layout(
         points,
         frame: Some(0),
         time: time.map(|at| (at, ColumnTimeUnit::Seconds(1.0))),
+        // The rate may have a decimal comma.
         rate: rate.and_then(|text| text.replacen(',', ".", 1).parse().ok()),
         unit: Some(metres.unwrap_or(1.0)),
         up: Some(AxisDirection::nearest_axis_direction(DVec3::Y)),
@@ -124,6 +127,7 @@ fn sort_motive_header_rows<'t>(
         .position(is_type)
         .ok_or(PointTableError::Missing("types"))?;
     let named = above[..kinds].iter().position(|row| labelled(row, "name"));
+    // Without labels the names are below the types.
     let names = named.unwrap_or(types + 1);
     if names >= kinds {
         return Err(PointTableError::Missing("names"));
@@ -204,6 +208,7 @@ fn collect_motive_points(
             }
         };
         let key = (cell(&header.types, at), cell(&header.names, at));
+        // A name that comes again with an axis that it has is another point.
         let is_new = key != before || found_places.last().is_none_or(|(_, _, axes)| axes[axis].is_some());
         if is_new {
             let kind = MotiveColumnKind::from_motive_label(&key.0);

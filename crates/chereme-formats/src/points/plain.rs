@@ -26,6 +26,7 @@ struct PlainTableTitles<'t> {
 
 /// Returns the titles of a table: its first line that is neither blank nor a comment.
 fn titles<'t>(first: &[(u64, &'t str)]) -> Option<PlainTableTitles<'t>> {
+    // Titles may begin with a `#`, too, as `#frame` or `# time`.
     let is_comment =
         |line: &str| line.starts_with('#') && !line[1..].trim_start().to_lowercase().starts_with(['f', 't']);
     let (line, text) = *first.iter().find(|(_, line)| !is_comment(line))?;
@@ -114,6 +115,7 @@ pub(super) fn is_plain_point_table(lines: &TableTextLines<'_>) -> bool {
     let mut rows: Vec<(u64, Vec<&str>)> = row_lines
         .map(|(line, text)| (*line, split_line_cells(text, titles.delimiter)))
         .collect();
+    // The bytes may end within their last row.
     if !lines.is_whole && rows.len() > 1 {
         rows.pop();
     }

@@ -35,6 +35,7 @@ pub(super) fn infer_row_times(
         return by_number(rows, layout, stated.or(wanted), findings);
     };
     let first = times[0];
+    // A stated unit or rate is not doubted.
     let bare = unit == 1.0 && stated.is_none();
     let millis = bare && are_millis(&times);
     let micros = bare && !millis && are_micros(&times);
