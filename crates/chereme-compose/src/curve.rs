@@ -25,6 +25,7 @@ impl MeasuredSpline {
     pub fn new(points: &[DVec3]) -> Self {
         let mut knots = vec![DVec3::ZERO];
         for &point in points {
+            // Between equal points the spline would divide by zero.
             if knots
                 .last()
                 .is_none_or(|last| last.distance(point) > SAME_POINT_DISTANCE_M)
@@ -108,6 +109,7 @@ impl MeasuredSpline {
                 .map(|pair| pair[0].angle_between(pair[1]) * pair[0].cross(pair[1]).dot(axis).signum())
                 .sum()
         };
+        // The mean axis of all turns gives opposite ones opposite signs.
         let axis: DVec3 = steps.windows(2).map(|pair| pair[0].cross(pair[1])).sum();
         sum(axis).abs()
     }
@@ -119,6 +121,7 @@ impl MeasuredSpline {
         let off = |at: &DVec3| *at - along * at.dot(along);
         let offsets = self.places.iter().map(off);
         let farthest = offsets.fold(DVec3::ZERO, |a, b| if b.length() > a.length() { b } else { a });
+        // A tenth of the bulge on the other side still counts as one side.
         let least = -0.1 * farthest.length();
         let aside = farthest.normalize_or(DVec3::Y);
         self.places.iter().all(|at| off(at).dot(aside) >= least)
@@ -127,6 +130,7 @@ impl MeasuredSpline {
 
 /// Returns the point at the share `u` of the curve from the second to the third of four points.
 fn spline_point_between(points: [DVec3; 4], u: f64) -> DVec3 {
+    // Centripetal knots leave no loops or cusps between points at unequal distances.
     let knot = |a: DVec3, b: DVec3| a.distance(b).sqrt().max(1e-9);
     let [p0, p1, p2, p3] = points;
     let t1 = knot(p0, p1);

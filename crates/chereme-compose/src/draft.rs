@@ -36,6 +36,7 @@ impl RecipeDraft {
         let resolved = resolve::resolve_after_change(recipe, sources, self.resolved.as_ref())?;
         self.kept.begin_round();
         let made = evaluate::evaluate_with_kept(&resolved, Some(&mut self.kept), goes_on);
+        // After an interruption the steps of earlier rounds may still be of use.
         if made.is_ok() {
             self.kept.drop_unused();
         }

@@ -100,6 +100,7 @@ impl DraftStage {
         let mut now = resolved
             .inputs_below_path(base)
             .filter(|(path, _)| self.part.covers_recipe_path(&path[base.len()..]));
+        // Both are sorted by path, so that they are compared in step.
         let same = self.given.iter().all(|(at, (input, material))| {
             now.next().is_some_and(|(path, found)| {
                 let loaded = resolved.materials.get(path);
@@ -166,6 +167,7 @@ impl KeptStages {
         self.last = None;
         let kept_size: usize = self.stages.iter().map(DraftStage::stage_memory_size).sum();
         if kept_size + work_memory_size(work) > MAX_DRAFT_NUMBERS {
+            // What this evaluation has not used goes first.
             let round = self.round;
             self.stages.retain(|stage| stage.round == round);
             if self.stages.iter().map(DraftStage::stage_memory_size).sum::<usize>() + work_memory_size(work)

@@ -66,6 +66,7 @@ pub(crate) fn restore_contacts(
     order.retain(|side| sides.contains(side));
     let mut did = Vec::new();
     for side in order {
+        // Anew for each hand, because the first one may have moved.
         let tracks = anchors.follow_anchored_points(work);
         let mut shifts: Vec<Option<DVec3>> = vec![None; work.frames];
         for contact in found.iter_mut().filter(|contact| wanted(contact)) {
@@ -76,6 +77,7 @@ pub(crate) fn restore_contacts(
                 continue;
             };
             let slots = &mut shifts[contact.frames.clone()];
+            // A frame has one shift, that of the first contact.
             if slots.iter().any(Option::is_some) {
                 continue;
             }
@@ -151,6 +153,7 @@ fn restoring_wrist_shift(
             .zip(&contact.offsets)
             .map(|(frame, was)| {
                 let displacement = same.contact_offset(tracks, frame)? - *was;
+                // To bring the place to the point takes the opposite shift.
                 Some(if acts { displacement } else { -displacement })
             })
             .collect();
@@ -201,12 +204,14 @@ pub(crate) fn blend_shifts(shifts: &[Option<DVec3>], blend: usize) -> Vec<DVec3>
             displacements.push(displacement);
             continue;
         }
+        // The next shift is sought again only when the last one found is behind.
         if after.is_none_or(|(at, _)| at < frame) {
             let next = (frame..shifts.len()).find_map(|at| Some((at, shifts[at]?)));
             after = next.or(Some((usize::MAX, DVec3::ZERO)));
         }
         let next = after.filter(|(at, _)| *at != usize::MAX);
         let displacement = match (before, next) {
+            // Shifts this near pass into each other, without a return to the old path between them.
             (Some((from, a)), Some((to, b))) if to - from <= 2 * blend => {
                 a.lerp(b, smooth((frame - from) as f64 / (to - from) as f64))
             }

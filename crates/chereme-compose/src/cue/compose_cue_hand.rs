@@ -114,6 +114,7 @@ fn move_cue_fingers(
 
 /// Returns the rotation of the hand at a place: fingers up and towards the face, the back of the hand to the front.
 fn cue_hand_rotation(work: &WorkingClip, side: BodySide, head: &CueHeadSpace, spot: &CueSpot) -> Option<DQuat> {
+    // The first axis points to the side of the cueing hand, from which its fingers point away.
     let level = DVec3::new(-spot.angle.cos(), spot.angle.sin(), 0.0);
     let along = level * spot.lean.cos() - DVec3::Z * spot.lean.sin();
     let (along, palm) = (

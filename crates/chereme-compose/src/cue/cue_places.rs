@@ -131,6 +131,7 @@ impl CueHeadSpace {
     fn at_throat(&self, usual: CueSpot) -> CueSpot {
         let mut position = self.throat + DVec3::new(0.04, 0.0, 0.13);
         let wanted = self.chest + BEFORE_CHEST - position.z;
+        // The lean at which the wrist is as far in front as wanted, if the hand is long enough.
         let wanted_lean = (wanted / self.hand.max(0.1)).clamp(-1.0, 1.0).asin();
         let lean = wanted_lean.clamp(usual.lean, FARTHEST_LEAN);
         position.z += (wanted - self.hand * lean.sin()).max(0.0);
@@ -190,12 +191,14 @@ impl CuePathBow {
         };
         let clear = |bow: &Self| {
             let ends = lip_clearance(from.at, &open, size).min(lip_clearance(to.at, &open, size));
+            // A path cannot be farther from the lips than its own ends are.
             let wanted = PLANNED_LIP_CLEARANCE_M.min(ends);
             (1..24).all(|n| {
                 let bow_place = bow.bowed_tip_position(from, to, f64::from(n) / 24.0);
                 lip_clearance(bow_place, &open, size) >= wanted - 1e-9
             })
         };
+        // A path that never clears the lips does not bow without end.
         while !clear(&bow) && bow.by.x < 0.6 {
             bow.by.x += 0.01;
         }
@@ -211,6 +214,7 @@ impl CuePathBow {
 
     /// Returns the position of the tip after a share of the path.
     pub(super) fn bowed_tip_position(&self, from: &CueSpot, to: &CueSpot, share: f64) -> DVec3 {
+        // The square of a sine leaves the straight path and comes back to it without a corner.
         let bend = (std::f64::consts::PI * share).sin();
         from.at.lerp(to.at, share) + self.by * (bend * bend)
     }

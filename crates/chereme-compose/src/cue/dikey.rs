@@ -322,6 +322,7 @@ impl DikeyDictionary {
     }
 
     fn cheapest_dikey_path(&self, steps: &[Vec<DikeyCandidate>], costs: &DikeyCostWeights) -> Vec<usize> {
+        // Viterbi's algorithm: the least cost of each candidate, and the one before it.
         let mut table: Vec<Vec<(f64, usize)>> = Vec::with_capacity(steps.len());
         for (n, own) in steps.iter().enumerate() {
             let row = own.iter().map(|candidate| {
@@ -381,6 +382,7 @@ impl DikeyDictionary {
             let mut row = match pieces[n].dikey.and_then(|n| self.dikeys.get(n)) {
                 Some(dikey) => warped(dikey, share, end - start, self.rate),
                 None => {
+                    // A ramp that begins and ends at rest.
                     let eased = share * share * (3.0 - 2.0 * share);
                     let both = own_start.iter().zip(&own_end);
                     both.map(|(a, b)| a + (b - a) * eased).collect()

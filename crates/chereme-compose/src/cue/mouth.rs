@@ -58,6 +58,7 @@ fn raise_lip_curve(values: &mut [f64], start: f64, end: f64, frame_time: f64) {
         let time = frame as f64 * frame_time;
         let rise = smooth_lip_share((time - start + LIP_LEAD_S) / LIP_CHANGE_S);
         let fall = smooth_lip_share((time - end + LIP_LEAD_S) / LIP_CHANGE_S);
+        // Two neighbouring sounds of one kind are no stronger than one.
         *value = (*value + rise - fall).clamp(0.0, 1.0);
     }
 }

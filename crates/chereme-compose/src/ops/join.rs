@@ -140,6 +140,7 @@ fn hold_above_hips(first: &WorkingClip, second: &mut WorkingClip, frame: usize) 
             (second.joint_translation_at(*joint, frame), joint_rotation) == (place, rotation)
         })
     };
+    // Movements that already agree above the hips keep their numbers exactly.
     if above.iter().all(as_held) {
         return;
     }
@@ -211,6 +212,7 @@ fn extend_joint_channel(
         .rotations
         .extend(shares().map(|w| course.rotation_along_course(a, b, w)));
     channel.rotations.extend_from_slice(&next.rotations[enter..]);
+    // Where one movement places the joint, the other's constant offset has to be written out.
     if moves {
         let places = channel.translations.get_or_insert_with(|| vec![here; leave + 1]);
         places.truncate(leave + 1);
@@ -302,6 +304,7 @@ fn measure_join_smoothness(work: &WorkingClip, side: BodySide, seam: &MovementSe
 /// speed predicts, and the changes of its velocity and acceleration; the larger of both ends.
 fn measure_joint_breaks(work: &WorkingClip, joint: usize, cut: ChannelCut, offset: usize) -> [f64; 3] {
     let (leave, enter) = (cut.leave, offset + cut.enter);
+    // Only the positions around the two ends are needed, not those of the whole movement.
     let start = leave.saturating_sub(4);
     let path = joint_positions_over(work, joint, start..(enter + 5).min(work.frames));
     let mut break_sizes: [f64; 3] = [0.0; 3];

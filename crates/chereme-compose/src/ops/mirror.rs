@@ -139,6 +139,7 @@ impl StepOperator for MirrorSettings {
 /// Exchanges the movements of the arms.
 pub(crate) fn swap_arm_movements(work: &mut WorkingClip) -> Result<Vec<String>, StepError> {
     let plan = MirrorPlan::mirror_plan_from(work)?;
+    // All images come before any is written, because each arm is read for the other.
     let images = plan
         .pairs
         .iter()
@@ -305,6 +306,7 @@ impl MirrorPlan {
         };
         for (&top, side) in tops.iter().zip(BodySide::BOTH_SIDES) {
             for joint in skeleton.joint_subtree(top) {
+                // A joint whose counterpart does not point back has none.
                 match map[joint].filter(|&other| other != joint && map[other] == Some(joint)) {
                     Some(other) => {
                         let even = plan.even_joint_offsets(work, joint, other, &map);
@@ -383,6 +385,7 @@ impl MirrorPlan {
         };
         let image = self.reflect(self.rest[joint] * here).try_normalize();
         let bone = (self.rest[other] * there).try_normalize();
+        // Bones that are each other's image already keep an exact identity.
         match (bone, image) {
             (Some(bone), Some(image)) if bone.dot(image) < 1.0 - 1e-12 => DQuat::from_rotation_arc(bone, image),
             _ => DQuat::IDENTITY,

@@ -133,6 +133,7 @@ fn parse_expression_times(parser: &mut RecipeParser<'_>) -> ParsedText<Expressio
     if let Ok(times) = times.try_into() {
         return Ok(ExpressionTimes::At(times));
     }
+    // Fewer than five times are a part of the movement.
     parser.back_to(start);
     cut::parse_movement_part(parser).map(ExpressionTimes::Part)
 }

@@ -251,6 +251,7 @@ fn wrist_bend(work: &WorkingClip, side: BodySide) -> f64 {
     let Some(along) = work.anatomy.hand_direction(side, &rest) else {
         return 0.0;
     };
+    // In the hand's own space, where the direction is the same in every frame.
     let along = rest.model_joint_rotation(arm.hand).inverse() * along;
     let columns = JointColumns::joint_columns_of(work, [arm.hand]);
     let (elbows, wrists) = (columns.joint_positions(arm.forearm), columns.joint_positions(arm.hand));
@@ -281,6 +282,7 @@ fn orienting_rotation(
         (Some(to), None) => shortest_arc_about(palm, to, fingers),
         (None, Some(to)) => shortest_arc_about(fingers, to, palm),
         (Some(palm_to), Some(to)) => {
+            // Fingers are exact; a palm that is not at a right angle to them gives way.
             let across = palm_to.reject_from_normalized(to);
             let rotation = anatomy.hand_rotation(side, to, across).ok_or_else(none)?;
             rotation * model.model_joint_rotation(hand).inverse()

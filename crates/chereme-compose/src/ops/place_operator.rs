@@ -362,6 +362,7 @@ fn place_working_hands(
         shifts.push(placing.placement_hand_shift(work, together, &mut notes)?);
     }
     let near = matches!(&settings.to, PlacementGoal::Near { by, .. } if !by.is_empty());
+    // A hand beside the place does not have the place's value.
     let value = input.and_then(|input| input.value.clone()).filter(|_| !near);
     let before = work.clone();
     let (stroke, solver) = (&placing.stroke, settings.solver);
@@ -375,6 +376,7 @@ fn place_working_hands(
     for shift in &shifts {
         let (by, frames) = (shift.by, &shift.frames);
         for &side in shift.sides {
+            // A mere displacement is taken at its word.
             if !matches!(settings.to, PlacementGoal::By(_))
                 && let Some(cleared) = clear::clear_hand_of_body(work, &before, side, settings.solver)
             {
