@@ -345,6 +345,7 @@ fn looked_at(
     let scene = transcribe_scene::SignerScene::read_signer_scene(clip, anatomy, options)?;
     let sight = transcribe_tree::SceneReadings::new(&scene, options);
     let slack = precision::expected_place_slack(&scene, &sight);
+    // Hands as exact as synthesised ones are read again, with less slack about places.
     let mut transcription = if options.slack > slack {
         let closer = TranscribeOptions {
             slack,

@@ -74,6 +74,7 @@ pub(super) fn write_verified_notation<'a>(
         off: [0.0; 2],
     };
     proof.nonmanual = proof.find_nonmanual_acts(&best.trial);
+    // Places and movement depend on each other: each search goes on from the result of the other.
     for search in 0..MAX_PLACE_SEARCHES {
         let moved = proof.search_moving_actions(&best.trial);
         let settled = search > 0 && (moved.is_none() || proof.missing_hands(best.off).is_empty());
@@ -290,12 +291,14 @@ impl TrialResynthesis<'_, '_> {
                 off,
             }
         };
+        // A first reading that already puts the hands there needs no search.
         if self
             .hands_beyond_distance(begun.off, tuned().resynthesis.sure)
             .is_empty()
         {
             return Some(kept(begun.off));
         }
+        // A reading that says less is preferred if it explains the hands as well.
         if let Some(unsaid) = self.unsaid(&first) {
             return Some(unsaid);
         }
@@ -398,6 +401,7 @@ impl TrialResynthesis<'_, '_> {
             mirrored: true,
             ..from.with_place_notation(PlaceNotation::Each(mirrored_places))
         };
+        // Hands that act alike mirror each other anyway.
         let mirrored = Some(mirrored).filter(|_| !self.begun.symmetric);
         let apart = match &from.stand {
             PlaceNotation::Together(..) if self.begun.symmetric => {
@@ -429,6 +433,7 @@ impl TrialResynthesis<'_, '_> {
             .sight
             .read_hand_orientations(track, self.begun.frame, tuned().resynthesis.turns + 1);
         let near = search.beam.iter().take(tuned().resynthesis.turned_at);
+        // The first orientation is the one that has been tried.
         let each = near.flat_map(|tried| {
             turns.iter().skip(1).map(|turned| {
                 let mut trial = tried.trial.clone();
@@ -549,12 +554,14 @@ impl TrialResynthesis<'_, '_> {
             None => tuned().resynthesis.exact,
         };
         for (n, by) in drift.into_iter().flatten().enumerate() {
+            // The offset displaces the hand; the rest of its error comes from its rotation.
             let turned = off[n] * off[n] - aside[n].length_squared();
             aside[n] += by;
             off[n] = (turned + aside[n].length_squared()).max(0.0).sqrt();
         }
         let numbers = &tuned().resynthesis;
         let otherwise = trial.unexplained_place_penalties();
+        // A hand matches, is displaced by the animator, or misses its place, whichever is the likeliest.
         let of = |n: usize| {
             let matches = 0.5 * (off[n] / exact).powi(2);
             let displaced = numbers.near + 0.5 * (off[n] / numbers.displaced).powi(2);
@@ -603,6 +610,7 @@ impl TrialResynthesis<'_, '_> {
             let track = track.as_ref()?;
             let hand = scene.anatomy.arm_chain(track.side)?.hand;
             let along = scene.anatomy.hand_direction(track.side, &model)?;
+            // Both ends of the hand, so that its direction counts as well as its place.
             let ends = |wrist: DVec3, along: DVec3| [wrist, wrist + along * scene.hand];
             let hand_ends = ends(track.wrist[frame], track.along[frame]);
             let there = ends(

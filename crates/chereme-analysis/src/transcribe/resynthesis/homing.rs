@@ -118,6 +118,7 @@ impl TrialResynthesis<'_, '_> {
         let mut order: Vec<usize> = (0..search.beam.len()).filter(|&k| !search.beam[k].whole).collect();
         order.sort_by(|a, b| search.beam[*a].total.total_cmp(&search.beam[*b].total));
         for k in order.into_iter().take(tuned().resynthesis.finalists) {
+            // The notation alone costs as much as the best trial in all.
             if search.beam[k].trial.trial_notation_penalty() >= search.best.total {
                 continue;
             }
@@ -129,6 +130,7 @@ impl TrialResynthesis<'_, '_> {
             }
             search.beam[k] = whole;
         }
+        // Whole signs have other errors than first postures, so that the order has changed.
         search.add_search_trials(Vec::new());
     }
 
@@ -140,6 +142,7 @@ impl TrialResynthesis<'_, '_> {
         let symmetric = self.begun.symmetric || from.mirrored;
         let likeliest = |n: usize| {
             let mut all = body.rank_hand_places(n, symmetric, most);
+            // Places were ranked for shifted hands; offsets count from the observed ones.
             for placed in &mut all {
                 placed.aside -= by[n];
             }

@@ -21,6 +21,7 @@ const MAX_GROUPED_ACTIONS: usize = 8;
 /// Returns lists of fewer actions: each lacks one of `actions`, or has a repeated one instead of several in a row.
 pub(super) fn regroup_action_lists(actions: &[NotatedMotion]) -> Vec<Vec<NotatedMotion>> {
     let mut all = Vec::new();
+    // A single action cannot be left out, but its parts can.
     if let [only] = actions {
         let inner = regroup_inner_parts(only).into_iter();
         return inner.map(|other| vec![other]).collect();

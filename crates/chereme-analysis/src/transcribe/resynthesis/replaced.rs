@@ -100,6 +100,7 @@ fn restate(
             }
             nth += 1;
             let (was, is) = (old.get(nth - 1), new.get(nth - 1));
+            // A value that only the old notation states goes with it.
             let Some(is) = is else {
                 return was.is_none();
             };

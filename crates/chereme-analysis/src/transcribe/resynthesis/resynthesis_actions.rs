@@ -45,6 +45,7 @@ pub(super) fn similar_action_lists(actions: &[NotatedMotion]) -> Vec<Vec<Notated
         }
         all
     });
+    // Every list costs a synthesis, so that equal ones are tried once.
     let mut unlike: Vec<Vec<NotatedMotion>> = Vec::new();
     all.retain(|other| {
         let is_new = other != actions && !unlike.contains(other);
@@ -187,6 +188,7 @@ fn similar_motions(of: &NotatedMotion) -> Vec<NotatedMotion> {
     let mut all: Vec<NotatedMotion> = kinds.map(|kind| NotatedMotion { kind, ..of.clone() }).collect();
     let manners = similar_manners(&of.manner).into_iter();
     all.extend(manners.map(|manner| NotatedMotion { manner, ..of.clone() }));
+    // The motion alone, without its repetition or the posture at its end.
     if let MotionKind::Repeated { motion, .. }
     | MotionKind::Target {
         motion: Some(motion), ..

@@ -177,6 +177,7 @@ impl TrialResynthesis<'_, '_> {
         let observed = scene.clip.clip_frame_count() - from;
         let begins = self.hands_in(clip, 0)?;
         let (mut sum, mut count) = (0.0, 0);
+        // A synthesised sign that is shorter stays in its last posture.
         let mut there = begins;
         for frame in 0..observed.max(clip.clip_frame_count()) {
             if frame < clip.clip_frame_count() {
@@ -195,6 +196,7 @@ impl TrialResynthesis<'_, '_> {
                 };
                 let (now, at_first) = (ends(observed_frame), ends(from));
                 for end in 0..2 {
+                    // Paths are compared and not places: a wrong start is left to the search for places.
                     let path = now[end] - at_first[end];
                     let apart = path.distance(there[end] - begins[end]);
                     sum += apart.min(MAX_HAND_ERROR_METRES) / 2.0;

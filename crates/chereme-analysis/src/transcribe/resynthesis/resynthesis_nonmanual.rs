@@ -117,6 +117,7 @@ impl TrialResynthesis<'_, '_> {
             .iter()
             .filter_map(|part| scene.anatomy.part_joint(*part))
             .collect();
+        // A body may have one joint for spine and chest.
         joints.dedup();
         let sample_frame = |frames: usize, n: usize| (frames - 1) * n / (COMPARED_SIGN_FRAMES - 1);
         let angles = (0..COMPARED_SIGN_FRAMES).flat_map(|n| {
