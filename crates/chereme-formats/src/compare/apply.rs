@@ -13,6 +13,7 @@ pub fn apply_difference(difference: &TranscriptDifference, a: &AnnotationTranscr
     if let Some(rest) = &difference.rest {
         pieces.rest = (**rest).clone();
     }
+    // Names come first, because all other changes name tiers as the second document does.
     for change in &difference.tiers {
         if let Some(to) = &change.to {
             pieces.rename_loose_tier(&change.tier, to);
@@ -47,6 +48,7 @@ pub fn apply_difference(difference: &TranscriptDifference, a: &AnnotationTranscr
         .iter()
         .map(|moved| (moved.annotation.id.as_str(), moved.id.as_str()))
         .collect();
+    // A moved annotation may stand below an added one.
     for moved in order_by_references(difference.moved.iter().map(|entry| &entry.annotation)) {
         if let Some(id) = old.get(moved.id.as_str()) {
             place_loose_annotation(&mut pieces, id, moved, &fresh);
@@ -85,6 +87,7 @@ pub(super) fn order_by_references<'s>(
             Some(ReferredAnnotation::New(id)) => ids.get(id.as_str()).copied(),
             _ => None,
         };
+        // References in a circle must not be followed for ever.
         std::iter::successors(ids.get(annotation.id.as_str()).copied(), above)
             .take(64)
             .count()

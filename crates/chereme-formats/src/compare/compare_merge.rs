@@ -71,6 +71,7 @@ pub fn merge_transcripts(
         brought: Vec::new(),
         fresh: BTreeMap::new(),
     };
+    // New ids must be free on either side.
     for place in list_annotation_addresses(theirs) {
         work.pieces.note_id(&compared_annotation_at(theirs, place).id);
     }
@@ -257,6 +258,7 @@ impl TranscriptMergeWork<'_> {
         };
         let tier_index = self.theirs.tiers.iter().position(|tier| tier.name == annotation.tier);
         let symbolic = tier_index.is_some_and(|tier| is_symbolic(self.theirs, tier));
+        // Both sides may have added the same annotation, which then counts once.
         let twin = self.pieces.all.iter().find(|(id, it)| {
             let there = if symbolic {
                 it.above == above
@@ -339,6 +341,7 @@ impl TranscriptMergeWork<'_> {
         let empty = |annotation: &TranscriptAnnotation| {
             annotation.span.span_end_instant() <= annotation.span.span_start_instant()
         };
+        // Two ends that were moved past each other leave no time between them.
         if empty(&loose_own.it) && !empty(&old) && !empty(&new.whole) {
             fails = true;
             loose_own.it.span = self.pieces.all[&own].it.span;
@@ -379,6 +382,7 @@ impl TranscriptMergeWork<'_> {
         let tier = self.pieces.tiers.iter().find(|entry| entry.0.name == new.tier);
         let symbolic = tier.is_some_and(|entry| is_chained(&entry.0));
         let (start, end) = (merged(a, c, e), merged(b, d, f));
+        // Links of a chain have no times of their own.
         if !symbolic {
             let instant = chereme_motion::RecordingInstant::from_micros;
             if [start, end] == [e, f] {

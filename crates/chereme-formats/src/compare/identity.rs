@@ -40,6 +40,7 @@ pub(super) fn match_transcripts(a: &AnnotationTranscript, b: &AnnotationTranscri
     if trusted {
         by_id(a, b, &ids, &mut matching);
     }
+    // Links of chains are matched below matched parents, which therefore come first.
     for at in compared_tiers_parents_first(a) {
         if let Some(other) = matching.tiers[at] {
             if is_symbolic(a, at) {
@@ -201,6 +202,7 @@ fn match_transcript_tiers(
             let shared = own_tier.annotations.iter().filter(|annotation| match ids {
                 Some(ids) => ids.get(annotation.id.as_str()).is_some_and(|place| place.tier == other),
                 None => {
+                    // Without ids every pair is compared; so many annotations are enough to know a tier.
                     let there = &b.tiers[other].annotations;
                     there.iter().take(2000).any(|that| has_same_times(annotation, that))
                 }
@@ -243,6 +245,7 @@ fn by_time(
     let mut candidates: Vec<(f64, bool, AnnotationAddress, AnnotationAddress)> = Vec::new();
     for place in mine {
         let own_annotation = compared_annotation_at(a, place);
+        // An annotation that begins earlier ends before this one, as long as it may be.
         let from = own_annotation
             .span
             .span_start_instant()
@@ -365,6 +368,7 @@ fn annotation_overlap_share(a: &TranscriptAnnotation, b: &TranscriptAnnotation) 
 }
 
 fn compared_tiers_parents_first(it: &AnnotationTranscript) -> Vec<usize> {
+    // Parents in a circle must not be followed for ever.
     let depth = |tier: usize| {
         std::iter::successors(Some(tier), |at| it.tiers[*at].parent)
             .take(it.tiers.len() + 1)

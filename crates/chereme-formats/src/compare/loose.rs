@@ -64,6 +64,7 @@ impl TranscriptPieces {
     /// Makes the ids of later additions higher than this one.
     pub(super) fn note_id(&mut self, id: &str) {
         let parsed_number = id.strip_prefix('a').and_then(|digits| digits.parse::<u64>().ok());
+        // Enormous numbers leave no room for later ids.
         let number = parsed_number.filter(|value| *value < u64::MAX / 2);
         self.last = self.last.max(number.unwrap_or(0));
     }
@@ -111,6 +112,7 @@ impl TranscriptPieces {
         let mut transcript = self.rest;
         for (mut tier, above) in self.tiers {
             tier.parent = above.and_then(|name| names.get(&name).copied());
+            // A stereotype says how a tier hangs on its parent.
             if tier.parent.is_none() {
                 tier.stereotype = None;
             }
@@ -157,6 +159,7 @@ fn fill_transcript_tier(
         let mut it = loose.it;
         it.parent = loose.above.and_then(|id| places.get(&id).copied());
         if symbolic {
+            // A link of a chain without a parent has no time.
             let Some(parent) = it.parent else { continue };
             families.entry(parent).or_default().push(kept.len());
         }
@@ -204,6 +207,7 @@ fn loose_span_share(span: TimeSpan, k: usize, count: usize) -> TimeSpan {
 }
 
 fn loose_tiers_parents_first(it: &AnnotationTranscript) -> Vec<usize> {
+    // Parents in a circle must not be followed for ever.
     let depth = |tier: usize| {
         std::iter::successors(Some(tier), |at| it.tiers[*at].parent)
             .take(it.tiers.len() + 1)

@@ -344,6 +344,7 @@ fn changed_tier_fields(a: &TranscriptTier, b: &TranscriptTier) -> BTreeMap<&'sta
 fn compare_document_parts(a: &AnnotationTranscript, b: &AnnotationTranscript) -> Vec<String> {
     let mut all = Vec::new();
     let properties = |transcript: &AnnotationTranscript| -> BTreeMap<String, String> {
+        // The counter of ids is no content.
         let own_properties = transcript.properties.iter().cloned();
         own_properties
             .filter(|(name, _)| name != "lastUsedAnnotationId")

@@ -9,6 +9,7 @@ impl TranscriptMergeWork<'_> {
     pub(super) fn merge_tier_changes(&mut self, changes: &TranscriptDifference) {
         self.rename_tiers();
         let added = changes.tiers.iter().filter(|change| change.change == "added");
+        // All names come first, because a new tier may stand below another new one.
         for change in added.clone() {
             let name = change.tier.clone();
             self.from_theirs.insert(name.clone(), name);
@@ -72,6 +73,7 @@ impl TranscriptMergeWork<'_> {
             .filter_map(|change| self.from_base.get(&change.tier).cloned())
             .filter(|name| self.pieces.all.values().all(|loose| loose.tier != *name))
             .collect();
+        // A tier that goes may have been the last below its parent.
         loop {
             let tiers = &mut self.pieces.tiers;
             let before = tiers.len();
