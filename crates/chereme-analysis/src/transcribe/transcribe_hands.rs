@@ -122,12 +122,14 @@ pub(super) fn find_hand_relation(scene: &SignerScene<'_>, frames: &RangeInclusiv
         .iter()
         .filter(|&&frame| other.rests[frame])
         .count();
+    // One of the three frames may lie on the way from rest or to it.
     if resting >= 2 || (lies && !still(dominant)) {
         return alone;
     }
     let stays = [dominant, other].map(still);
     let mut best: Vec<(HandSymmetry, f64)> = symmetries()
         .filter_map(|symmetry| {
+            // A hand that moves beside one that stays has no symmetry with it.
             let off = if stays == [true, true] {
                 held_alike(scene, [dominant, other], first, &symmetry)
             } else if stays[0] == stays[1] {
@@ -185,6 +187,7 @@ fn posture_off([a, b]: [&HandTrajectory; 2], frame: usize, symmetry: &HandSymmet
 /// Returns the difference of two hands' movements from a symmetry, as a share of them. If the movements
 /// fit several symmetries, the postures decide.
 fn moved_alike([a, b]: [&HandTrajectory; 2], first: usize, last: usize, symmetry: &HandSymmetry) -> Option<f64> {
+    // Hands out of phase move oppositely at each moment.
     let signs = symmetry_axis_signs(symmetry) * if symmetry.out_of_phase { -1.0 } else { 1.0 };
     let (mut off, mut all) = (0.0, 0.0);
     for n in first..last {

@@ -177,6 +177,7 @@ fn along_arc(chord: DVec3, bow: DVec3, s: f64) -> DVec3 {
         return chord * s;
     }
     let radius = (width * width / 4.0 + depth * depth) / (2.0 * depth);
+    // The tangent of a quarter of the arc's angle is its depth over half of the chord.
     let angle = 2.0 * (2.0 * depth / width).atan() * (2.0 * s - 1.0);
     let along = 0.5 + radius * angle.sin() / width;
     chord * along + bow * ((radius * angle.cos() - (radius - depth)) / depth)
@@ -189,6 +190,7 @@ fn fit_path_circle(points: &[DVec3], exact: f64) -> Option<(PathForm, f64)> {
         .windows(2)
         .map(|pair| (pair[0] - mean).cross(pair[1] - mean))
         .sum();
+    // About the normal of the enclosed area the path turns in the positive sense.
     let axis = area.try_normalize()?;
     let centre = fitted_circle_centre(points, axis)?;
     let [x, y] = {
@@ -212,6 +214,7 @@ fn fit_path_circle(points: &[DVec3], exact: f64) -> Option<(PathForm, f64)> {
     let [sxx, sxy, syy] = flat
         .iter()
         .fold([0.0; 3], |[a, b, c], &(x, y)| [a + x * x, b + x * y, c + y * y]);
+    // The principal axis of the points, along which an ellipse is longest.
     let lean = 0.5 * (2.0 * sxy).atan2(sxx - syy);
     let (sin, cos) = lean.sin_cos();
     let along = |&(x, y): &(f64, f64)| (x * cos + y * sin, y * cos - x * sin);
@@ -286,6 +289,7 @@ fn wave(points: &[DVec3], exact: f64) -> Option<(PathForm, f64)> {
         (across.iter().copied().fold(f64::MIN, f64::max) - across.iter().copied().fold(f64::MAX, f64::min)) / 2.0;
     let mut crossings = 0;
     let mut was = 0.0_f64;
+    // Only clear crossings count: trembling about the chord is none.
     for &x in across.iter().filter(|x| x.abs() > 0.35 * width) {
         crossings += usize::from(was * x < 0.0);
         was = x;

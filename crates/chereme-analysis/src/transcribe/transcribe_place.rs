@@ -276,6 +276,7 @@ impl<'a> PosedBody<'a> {
             let ahead = if small { 0.0 } else { hand.ahead };
             let goal = self.hand_point_goal(spot, contact, n, ahead, symmetric);
             let within = goal.distance(hand.palm) < 1.2 * scene.hand;
+            // A hand that touches has a part there, and no part is farther from the palm than this.
             if touching && !within {
                 continue;
             }

@@ -129,6 +129,7 @@ fn spots(spot: impl Fn(&SidedLocation<BodyLocation>) -> Option<BodySpot>) -> Vec
             let Some(spot) = spot(&SidedLocation { at, side, approx }) else {
                 continue;
             };
+            // A place without sides is one point, whatever side is asked for.
             let same = |old: &BodySpot| {
                 old.at.distance(spot.at) < 1e-3
                     && old.lateral == spot.lateral

@@ -73,9 +73,11 @@ impl HandOffsetSpread {
         let far = off.dot(out);
         let aside = off - out * far;
         let mean = tuned().spread.pushed * self.arm;
+        // The farther a hand is pushed, the farther it may slide aside.
         let slides = missed.hypot(tuned().spread.slides * far.max(0.0));
         let flat =
             (-0.5 * aside.length_squared() / (slides * slides)).exp() / (std::f64::consts::TAU * slides * slides);
+        // Outwards the distance is exponential, as the trunk pushes hands; inwards it is normal.
         let ahead = if far > 0.0 {
             -far / mean
         } else {
