@@ -29,6 +29,7 @@ pub fn owning_token_index(annotation: TimeSpan, tokens: &[TimeSpan]) -> Option<u
         .max_by_key(|(n, token)| (shared(token), Reverse((token.span_start_instant(), *n))));
     let (place, token) = best?;
     let shorter = annotation.span_micros().min(token.span_micros());
+    // Twice a long time may exceed 64 bits.
     let enough = i128::from(shared(token)) * 2 >= i128::from(shorter);
     (shared(token) > 0 && enough).then_some(place)
 }

@@ -221,6 +221,7 @@ impl<'a> EditPlan<'a> {
     /// Clips the sibling whose head or tail a new annotation takes.
     fn clip_sibling_for_room(&mut self, tier: TierId, parent: &TierAnnotation, span: TimeSpan) -> PlanResult {
         let siblings = self.annotation_children(parent.id, tier);
+        // The first child of a subdivision has to fill its parent.
         if siblings.is_empty() {
             if span == parent.span {
                 return Ok(());
@@ -366,6 +367,7 @@ impl<'a> EditPlan<'a> {
             let span = child.span.shifted_span(by);
             let clipped = span.span_intersection(new).unwrap_or(span);
             let tiles = how == TierStereotype::TimeSubdivision;
+            // Subdivisions tile their parent, so that the outermost ones take over its ends.
             let start = if tiles && place == 0 {
                 new.span_start_instant()
             } else {
@@ -413,7 +415,9 @@ impl<'a> EditPlan<'a> {
         let (before, after) = self.annotation_neighbours(old);
         let annotation = old.id;
         if span.span_start_instant() != old.span.span_start_instant() {
+            // Without a neighbour the boundary is the parent's own.
             let fixed = old.span.span_start_instant();
+            // At least a microsecond is left of the neighbour.
             let from = before.map_or(fixed, |other| other.span.span_start_instant().shifted_instant(1));
             let to = if before.is_some() {
                 span.span_end_instant().shifted_instant(-1)
@@ -483,6 +487,7 @@ impl<'a> EditPlan<'a> {
         let old = self.require_annotation(id)?;
         let tier = self.require_tier(old.tier)?;
         match tier.tier_stereotype() {
+            // Subdivisions leave no gap: a neighbour takes over the time.
             Some(TierStereotype::TimeSubdivision) => match self.annotation_neighbours(old) {
                 (Some(other), _) | (None, Some(other)) => {
                     self.replace_annotation_span(other, spans_hull(other.span, old.span));
@@ -540,6 +545,7 @@ fn clamp_order(order: u32, count: usize) -> usize {
 }
 
 fn check_span(tier: TierId, annotation: NamedAnnotation, span: TimeSpan) -> PlanResult {
+    // Half of the range, so that no sum of two times overflows.
     let limit = RecordingInstant::from_micros(1 << 62);
     for at in [span.span_start_instant(), span.span_end_instant()] {
         if !(RecordingInstant::from_micros(-(1 << 62))..=limit).contains(&at) {

@@ -67,6 +67,7 @@ pub fn drag_spans(
     let (Some(first), Some(last)) = (items.first(), items.last()) else {
         return Vec::new();
     };
+    // Annotations that already lie beyond the limits must not be squeezed.
     let limits = SpanLimits {
         from: limits.from.min(first.start),
         to: limits.to.max(last.end),
@@ -113,6 +114,7 @@ pub fn drag_tiled_spans(
     let Some((left, right)) = pair else {
         return Vec::new();
     };
+    // An annotation that is already shorter than the least length may stay so.
     let least = limits
         .least
         .min(left.end - left.start)
@@ -233,6 +235,7 @@ fn resized(items: &[SpanItem], at: usize, by: i64, mode: NeighbourMode, limits: 
             new[at].end = end.min(wall);
         }
         NeighbourMode::Bulldozer => {
+            // All later annotations must still fit behind it.
             let inside = items[at + 1..].iter().map(|item| item.end - item.start);
             new[at].end = end.min(limits.to - inside.sum::<i64>());
             push_items_along(&mut new, at);
@@ -299,6 +302,7 @@ fn right(
             new
         };
         new = moved(by);
+        // What would go beyond the limit is taken back from the whole move.
         let over = new.last().map_or(0, |last| last.end - limits.to);
         return if over > 0 { moved((by - over).max(0)) } else { new };
     }
@@ -307,6 +311,7 @@ fn right(
         new[at] = nearest_room(items, at, item.start + by, limits);
         return new;
     }
+    // Chosen neighbours move together and are no walls to each other.
     let walls = items
         .iter()
         .enumerate()

@@ -115,6 +115,7 @@ impl LanguageFiles {
 
     /// Returns the language's own name for itself, without reading whole files; without one its code.
     pub(super) fn language_name<'a>(&'a self, code: &'a str) -> &'a str {
+        // The user's own files come last, and count before the program's.
         let mut lines = self.files.iter().rev().flat_map(|file| file.text.lines());
         let name = lines.find_map(|line| line.strip_prefix("language-name = "));
         name.map_or(code, str::trim)
@@ -219,6 +220,7 @@ pub fn read_word_book(files: &[WordFile]) -> (WordBook, Vec<WordFileError>) {
             report(line, "too many braces in each other".to_owned());
             continue;
         }
+        // Parsed messages do not know their lines.
         let numbered = file.text.lines().zip(1..);
         let lines = numbered.filter_map(|(text, line)| Some((text.split_once('=')?.0.trim(), line)));
         let lines: BTreeMap<&str, usize> = lines.collect();
