@@ -110,7 +110,8 @@ impl LinearHead {
         Self {
             bias: weights.get("bias").copied().unwrap_or(0.0),
             weights: named.map(|(name, weight)| (name.clone(), *weight)).collect(),
-            // Without the log odds of its share, the odds of a rare boundary are the evidence of the frame alone.
+            // Without the log odds of its share, the odds of a rare boundary
+            // are the evidence of the frame alone.
             prior: share.map_or(0.0, |share| (share / (1.0 - share)).ln()),
         }
     }
