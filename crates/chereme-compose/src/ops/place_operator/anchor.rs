@@ -23,8 +23,8 @@ pub(super) struct PlacementAnchor {
 }
 
 /// Finds the moment that determines the place of a sign. For one hand it is the contact with the body that falls in the
-/// span of its own placement, or in the whole stroke if no placement is annotated; else the annotated stroke in that
-/// span, else the span, else the stroke.
+/// span of its own placement, or in the whole stroke if no placement is annotated; else that span; without a placement the
+/// annotated stroke, else the stroke.
 pub(super) fn find_placement_anchor(
     work: &WorkingClip,
     stroke: &SignStroke,
