@@ -5,6 +5,8 @@
 mod bodies;
 #[path = "../examples/notation/checks.rs"]
 mod checks;
+#[path = "../examples/notation/vectors.rs"]
+mod vectors;
 
 use std::path::{Path, PathBuf};
 
@@ -19,6 +21,8 @@ const TURNING: f64 = 45.0;
 const DEEPEST: f64 = 0.01;
 /// One sign out of this many is animated on each body.
 const EVERY: usize = 12;
+/// One of this many vectors of the reference engine is compared.
+const VECTORS_EVERY: usize = 7;
 
 fn holds_on(body: &Path, folder: &Path, first: usize) {
     let stage = bodies::stage(body).expect("a body that signs");
@@ -68,6 +72,33 @@ fn signs_keep_their_contacts_on_the_starter_body_and_a_captured_one() {
     holds_on(&starter, &folder, 0);
     let captured = data.join("motion/bvh/upf-gti-performs/NGT Thanks.bvh");
     holds_on(&captured, &folder, EVERY / 2);
+}
+
+#[test]
+fn postures_and_movements_stay_as_near_to_those_of_the_reference_engine() {
+    let Some(data) = std::env::var_os("CHEREME_SHARED_DATA").map(PathBuf::from) else {
+        eprintln!("CHEREME_SHARED_DATA is not set: nothing is compared with the reference engine");
+        return;
+    };
+    let file = data.join("../facts/reference_engine_vectors.json");
+    let starter = Path::new(env!("CARGO_MANIFEST_DIR")).join("../corpus/chat.bvh");
+    let stage = bodies::stage(&starter).expect("a body that signs");
+    let groups = vectors::compare_vectors(&file, &stage, VECTORS_EVERY).expect("the vectors are compared");
+    let below = groups.iter().filter(|row| row.share_within() < row.group.least_share);
+    let below: Vec<String> = below
+        .map(|row| {
+            format!(
+                "{}: {:.2}, at least {}",
+                row.group.name,
+                row.share_within(),
+                row.group.least_share
+            )
+        })
+        .collect();
+    assert!(
+        below.is_empty(),
+        "fewer signs than before are within the tolerance: {below:#?}"
+    );
 }
 
 #[test]

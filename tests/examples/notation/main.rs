@@ -7,6 +7,7 @@
 //! `... -- faults FOLDER BODY.bvh [FILE.md [BEFORE]]` counts faults that make movement look unlike a person's, and writes
 //! the table between the marks of a file, with the counts of BEFORE, its output for an earlier animator;
 //! `faults sample N FOLDER BODY.bvh` takes one sign out of N.
+//! `... -- vectors FILE BODY.bvh...` compares small signs with the numbers of the reference engine on each body.
 
 #![allow(clippy::print_stdout, reason = "a program prints its table")]
 
@@ -17,6 +18,7 @@ mod count;
 mod draw;
 mod faults;
 mod table;
+mod vectors;
 mod walk;
 
 use std::error::Error;
@@ -44,6 +46,11 @@ fn main() -> Result<()> {
             };
             count::faults(Path::new(folder), body, 1, Some(into))
         }
+        ["vectors", file, paths @ ..] if !paths.is_empty() => {
+            let stage = |path: &&str| Ok(((*path).to_owned(), bodies::stage(Path::new(path))?));
+            let bodies = paths.iter().map(stage).collect::<Result<Vec<_>>>()?;
+            vectors::print(Path::new(file), &bodies)
+        }
         ["list", folder, body] => table::list(Path::new(folder), body),
         ["draw", "random", count, seed, folder, body, out] => {
             let folder = Path::new(folder);
@@ -60,6 +67,6 @@ fn main() -> Result<()> {
             let out = Path::new(out);
             draw::sheets(Path::new(folder), Path::new(body), out, (glosses, Shown::Sign))
         }
-        _ => Err("say `table FOLDER BODY.bvh...`, `draw FOLDER BODY.bvh OUT GLOSS...` `list FOLDER BODY.bvh` or `faults FOLDER BODY.bvh [FILE.md]`".into()),
+        _ => Err("say `table FOLDER BODY.bvh...`, `draw FOLDER BODY.bvh OUT GLOSS...` `list FOLDER BODY.bvh`, `vectors FILE BODY.bvh...` or `faults FOLDER BODY.bvh [FILE.md]`".into()),
     }
 }
