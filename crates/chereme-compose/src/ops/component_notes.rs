@@ -2,9 +2,9 @@
 
 use std::ops::Range;
 
-use chereme_motion::glam::DVec3;
+use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{BodySide, TimeSpan};
-use chereme_sign::hamnosys::orientation;
+use chereme_sign::hamnosys::{SpatialDirection, orientation};
 use chereme_sign::{ComponentReading, SignComponent};
 
 use crate::outcome::{GeneratedNote, NoteSubject};
@@ -182,7 +182,10 @@ pub(crate) fn nearest_direction_name(vector: DVec3) -> Option<String> {
 /// directions are in body space.
 pub(crate) fn palm_direction_name(fingers: DVec3, palm: DVec3) -> Option<&'static str> {
     let (fingers, palm) = (fingers.try_normalize()?, palm.try_normalize()?);
-    let angle = orientation::palm_angle(fingers.to_array(), palm.to_array());
+    // The letters jump at the vertical, where the measured direction may lie to either side.
+    let nearest = SpatialDirection::nearest_spatial_direction(fingers.to_array())?;
+    let facing = DQuat::from_rotation_arc(fingers, nearest.spatial_direction_vector().into()) * palm;
+    let angle = orientation::palm_angle(nearest.spatial_direction_vector(), facing.to_array());
     const PALM_DIRECTION_NAMES: [&str; 8] = [
         "down",
         "down-right",

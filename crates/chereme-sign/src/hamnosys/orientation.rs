@@ -1,17 +1,21 @@
 //! Directions about an axis: notation's letters for palms of hands that point anywhere, for arcs of movements that go
 //! anywhere, and for the points of circles.
 //!
-//! For a hand that points away from the signer the eight letters are plain directions. For one that points
-//! to a side, up or down, it is turned there by the shortest rotation, and the letters with it: pointing
-//! up, `d` faces away from the signer. For one that points back towards the signer the letters are those
-//! of its mirror image that points away: `r` of a right hand that points inwards and left faces the
-//! signer's chest. Transcribers use the letters this way: in signs of the sign language of the Netherlands
-//! that touch the chest with the palm's side of such a hand, it is `r`. At the plane between the two
-//! halves the meaning changes abruptly, as it does in those signs.
+//! For a hand that points away from the signer the eight letters are plain directions. For one that points elsewhere, it
+//! is first raised to its height about the axis from left to right, then turned about the vertical, and the letters turn
+//! with it: pointing up, `d` faces away from the signer; pointing to the left, `l` faces the signer. Straight up and down
+//! there is no turn, so the meaning changes abruptly there. The two public engines that animate this notation do the same:
+//! the rule gives each of 208 measured postures of the reference engine within 19 degrees.
 //!
-//! The letters of arcs and circles follow the same rule. In the same signs transcribers write `u` 44 times and `d` 12 times
-//! for arcs of movements straight, up or down towards the signer, and 96 and 38 times for those away: `u` bends upwards in
-//! both.
+//! For a hand that points back towards the signer `l` and `r` change places, so that they keep their sides: `r` of a right
+//! hand that points inwards and left faces the signer's chest.
+//!
+//! The letters of arcs and circles follow the same rule. In signs of the sign language of the Netherlands transcribers write
+//! `u` 44 times and `d` 12 times for arcs of movements straight, up or down towards the signer, and 96 and 38 times for
+//! those away: `u` bends upwards in both.
+
+/// The sine of the angle from the vertical below which a direction is straight up or down.
+const VERTICAL_SINE: f64 = 1e-6;
 
 /// A vector to the signer's left, up and away from the signer.
 type SignerVector = [f64; 3];
@@ -39,22 +43,24 @@ pub fn angle_about(direction: [f64; 3], vector: [f64; 3]) -> f64 {
     right.atan2(down)
 }
 
-/// Applies the shortest rotation from forward to `direction` to the direction at `angle` from down over
-/// right; mirrored for directions towards the signer.
+/// Raises and then turns forward to `direction`, a unit vector, and with it the direction at `angle` from down over right;
+/// the angle is reversed for directions towards the signer.
 #[must_use]
 pub fn rotate_from_forward(direction: [f64; 3], angle: f64) -> [f64; 3] {
-    let [x, y, z] = direction;
-    let towards = z < -1e-9;
-    let z = z.abs();
-    let (across, down) = (-angle.sin(), -angle.cos());
-    // The shortest turn from forward to (x, y, z) applied to (across, down, 0).
-    let along = across * x + down * y;
-    let turned = [across - x * along / (1.0 + z), down - y * along / (1.0 + z), -along];
-    if towards {
-        [turned[0], turned[1], -turned[2]]
-    } else {
-        turned
-    }
+    let [left, up, out] = direction;
+    let (across, down) = (if out < -1e-9 { angle.sin() } else { -angle.sin() }, -angle.cos());
+    let level = left.hypot(out);
+    let (turn_sine, turn_cosine) = match level > VERTICAL_SINE {
+        true => (left / level, out / level),
+        false => (0.0, 1.0),
+    };
+    // Raised by its height, down leans away from forward.
+    let (raised, leaning) = (down * level, -down * up);
+    [
+        across * turn_cosine + leaning * turn_sine,
+        raised,
+        leaning * turn_cosine - across * turn_sine,
+    ]
 }
 
 #[cfg(test)]
@@ -78,7 +84,9 @@ mod tests {
             ("i", "l", [1.0, 0.0, 0.0]),
             ("il", "r", [-half, 0.0, -half]),
             ("ui", "d", [0.0, -half, -half]),
-            ("ul", "dl", [half, -half, 0.0]),
+            ("ul", "d", [half, -half, 0.0]),
+            ("ul", "l", [0.0, 0.0, -1.0]),
+            ("dr", "u", [-half, half, 0.0]),
         ] {
             let pointing: SpatialDirection = direction.parse().expect("a direction");
             let angle = letter.parse::<CompassDirection>().expect("a palm").compass_angle();
