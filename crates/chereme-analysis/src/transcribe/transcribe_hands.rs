@@ -2,8 +2,8 @@
 
 use std::ops::RangeInclusive;
 
-use chereme_sign::hamnosys::HandSymmetry;
-use glam::DVec3;
+use chereme_sign::hamnosys::{HandSymmetry, SpatialDirection, orientation};
+use glam::{DQuat, DVec3};
 
 use super::transcribe_scene::{HandTrajectory, SignerScene};
 use crate::transcribe::transcribe_tuned::tuned;
@@ -59,6 +59,23 @@ impl RelationKind {
 pub(super) fn symmetry_axis_signs(symmetry: &HandSymmetry) -> DVec3 {
     let sign = |mirrored: bool| if mirrored { -1.0 } else { 1.0 };
     DVec3::new(sign(symmetry.left_right), sign(symmetry.up_down), sign(symmetry.out_in))
+}
+
+/// Returns the directions of fingers and palm that the other hand takes by a symmetry. Hands that do not mirror each other
+/// from left to right mirror the palm's letter, which counts for fingers in the direction `written`.
+pub(super) fn symmetric_hand_orientation(
+    written: DVec3,
+    [along, normal]: [DVec3; 2],
+    symmetry: &HandSymmetry,
+) -> [DVec3; 2] {
+    let signs = symmetry_axis_signs(symmetry);
+    let palm_signs = signs.with_x(-1.0);
+    let facing = DQuat::from_rotation_arc(along, written) * normal;
+    let angle = orientation::palm_angle(written.into(), facing.into());
+    let in_palm_frame = written * signs * palm_signs;
+    let palm = DVec3::from(orientation::palm_direction_vector(in_palm_frame.into(), angle)) * palm_signs;
+    let led = along * signs;
+    [led, DQuat::from_rotation_arc(written * signs, led) * palm]
 }
 
 /// The candidate symmetries, the more common first.
@@ -174,9 +191,11 @@ fn held_alike(
 
 /// Returns the difference of two postures from a symmetry; `None` if they are unlike.
 fn posture_off([a, b]: [&HandTrajectory; 2], frame: usize, symmetry: &HandSymmetry) -> Option<f64> {
-    let signs = symmetry_axis_signs(symmetry);
-    let along = (a.along[frame] * signs).angle_between(b.along[frame]);
-    let normal = (a.normal[frame] * signs).angle_between(b.normal[frame]);
+    let written = SpatialDirection::nearest_spatial_direction(a.along[frame].into())?;
+    let orientation = [a.along[frame], a.normal[frame]];
+    let expected = symmetric_hand_orientation(written.spatial_direction_vector().into(), orientation, symmetry);
+    let along = expected[0].angle_between(b.along[frame]);
+    let normal = expected[1].angle_between(b.normal[frame]);
     let shaped = a.known.known_angle_difference(&a.angles[frame], &b.angles[frame]);
     let off = (along / tuned().hands.points)
         .max(normal / tuned().hands.points)
@@ -209,5 +228,28 @@ fn parallel_hands_penalty(symmetry: &HandSymmetry) -> f64 {
         0.0
     } else {
         tuned().hands.parallel
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use chereme_sign::hamnosys::CompassDirection;
+
+    #[test]
+    fn parallel_hands_are_expected_with_the_mirrored_letter_of_the_palm() {
+        for direction in SpatialDirection::all_spatial_directions() {
+            let written = DVec3::from(direction.spatial_direction_vector());
+            for palm in CompassDirection::ALL_COMPASS_DIRECTIONS {
+                let facing = |palm: CompassDirection| {
+                    DVec3::from(orientation::palm_direction_vector(written.into(), palm.compass_angle()))
+                };
+                let parallel = HandSymmetry::default();
+                let [along, normal] = symmetric_hand_orientation(written, [written, facing(palm)], &parallel);
+                assert!(along.distance(written) < 1e-9);
+                let mirrored = facing(palm.mirrored_compass_direction());
+                assert!(normal.distance(mirrored) < 1e-9, "{direction} {palm}: {normal}");
+            }
+        }
     }
 }

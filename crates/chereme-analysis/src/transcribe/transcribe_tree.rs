@@ -24,7 +24,7 @@ use super::acts::{
 };
 use super::aim;
 use super::transcribe_hands::{
-    HandRelation, RelationKind, find_hand_relation, leading_hand_index, symmetry_axis_signs,
+    HandRelation, RelationKind, find_hand_relation, leading_hand_index, symmetric_hand_orientation, symmetry_axis_signs,
 };
 use super::transcribe_path::PathForm;
 use super::transcribe_place::{HandsTogether, LikelyHandPlace, PosedBody, hand_point_site};

@@ -171,6 +171,8 @@ impl SignPlan {
 pub(crate) struct ActingFrame {
     /// Factors (1 or -1) on left, up and forward.
     pub(crate) axes: DVec3,
+    /// The same for palms: two hands mirror them even if their directions are parallel.
+    pub(crate) palm_axes: DVec3,
     /// Whether left and right of places are exchanged.
     pub(crate) mirrored: bool,
     /// Whether it is half a period behind.
@@ -527,11 +529,11 @@ impl<'a> SignPlanner<'a> {
             let palm = pick_hand_value(&posture.palm, n);
             if let Some(aim) = extended {
                 self.state[n].direction = aim_unit_vector(aim);
-                self.state[n].axes[0] = self.signer.notated_value_axes(&posture.extended, n, frame);
+                self.state[n].axes[0] = self.signer.notated_value_axes(&posture.extended, n, frame.axes);
             }
             if let Some(aim) = palm {
                 self.state[n].palm = aim.aim_angle();
-                self.state[n].axes[1] = self.signer.notated_value_axes(&posture.palm, n, frame);
+                self.state[n].axes[1] = self.signer.notated_value_axes(&posture.palm, n, frame.palm_axes);
             }
             if extended.is_some() || palm.is_some() {
                 let relative = [extended.map(|aim| aim.frame), palm.map(|aim| aim.frame)];
@@ -585,8 +587,10 @@ impl NotationSigner<'_> {
     /// Returns the frame for notation without a symmetry: mirrored for left-handed signers.
     pub(crate) fn own_frame(&self) -> ActingFrame {
         let mirrored = self.sides[0] == BodySide::Left;
+        let axes = DVec3::new(if mirrored { -1.0 } else { 1.0 }, 1.0, 1.0);
         ActingFrame {
-            axes: DVec3::new(if mirrored { -1.0 } else { 1.0 }, 1.0, 1.0),
+            axes,
+            palm_axes: axes,
             mirrored,
             behind: false,
         }
@@ -597,13 +601,13 @@ impl NotationSigner<'_> {
         (time * self.rate - 1e-6).ceil() / self.rate
     }
 
-    /// Returns the axes for a notated value of a hand: those of its frame, or the signer's if the value is
+    /// Returns the axes for a notated value of a hand: those of its frame, `shared`, or the signer's if the value is
     /// the hand's own.
-    fn notated_value_axes<T>(&self, said: &EachHand<T>, n: usize, frame: ActingFrame) -> DVec3 {
+    fn notated_value_axes<T>(&self, said: &EachHand<T>, n: usize, shared: DVec3) -> DVec3 {
         if n == 1 && said.other_value().is_some() {
             self.own_frame().axes
         } else {
-            frame.axes
+            shared
         }
     }
 }
@@ -626,8 +630,10 @@ impl PlannedHands<'_> {
 /// Returns the frame of the second hand under a symmetry.
 fn second(own: ActingFrame, symmetry: HandSymmetry) -> ActingFrame {
     let sign = |mirrored: bool| if mirrored { -1.0 } else { 1.0 };
+    let axes = own.axes * DVec3::new(sign(symmetry.left_right), sign(symmetry.up_down), sign(symmetry.out_in));
     ActingFrame {
-        axes: own.axes * DVec3::new(sign(symmetry.left_right), sign(symmetry.up_down), sign(symmetry.out_in)),
+        axes,
+        palm_axes: axes.with_x(-own.axes.x),
         mirrored: own.mirrored == symmetry.real_space,
         behind: symmetry.out_of_phase,
     }

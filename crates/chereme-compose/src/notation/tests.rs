@@ -134,6 +134,22 @@ fn hands_point_and_face_as_written_on_any_axes() {
 }
 
 #[test]
+fn parallel_hands_point_alike_and_mirror_their_palms() {
+    let hands = HandsUsed::Both(HandSymmetry::default());
+    let made = made(
+        &notated(hands, posture(HandClass::Flat, "o", "l", None), vec![]),
+        Axes::Odd,
+    );
+    let model = model(&made, 0.5);
+    for (side, faces) in [(BodySide::Right, DVec3::X), (BodySide::Left, DVec3::NEG_X)] {
+        let along = made.anatomy.hand_direction(side, &model).expect("a hand");
+        let palm = made.anatomy.palm_normal(side, &model).expect("a hand");
+        assert!(along.distance(DVec3::Z) < 0.05, "{side:?} points to {along}");
+        assert!(palm.distance(faces) < 0.05, "{side:?} faces {palm}");
+    }
+}
+
+#[test]
 fn the_founding_example_moves_both_hands_down_twice() {
     let mut down = directed("d");
     if let MotionKind::Directed(directed) = &mut down.kind {
@@ -564,7 +580,7 @@ fn a_touch_beside_the_head_meets_the_head() {
 fn raised_shoulders_do_not_move_a_hand_off_what_it_touches() {
     use chereme_sign::hamnosys::{NonmanualAct, NonmanualPart};
     let place = at(BodyLocation::Forehead, Some(PlaceContact::Touch));
-    let begun = posture(HandClass::Finger2, "ul", "d", Some(place));
+    let begun = posture(HandClass::Finger2, "ul", "dr", Some(place));
     let plain = notated(HandsUsed::Dominant, begun, vec![]);
     let on_head = |made: &GeneratedMovement| {
         let [tip, nose] = ["right-index-tip", "nose"].map(|point| landmark(made, 0.5, point));

@@ -74,10 +74,11 @@ impl NotationWriter<'_> {
         let ([Some(a), Some(b)], [Some(one), Some(other)]) = (&self.scene.hands, seen) else {
             return [true; 3];
         };
-        let signs = symmetry_axis_signs(&symmetry);
-        let angle = |x: &[DVec3], y: &[DVec3]| (x[frame] * signs).angle_between(y[frame]);
-        let is_turned_alike = angle(&a.along, &b.along) < 0.45 && angle(&a.normal, &b.normal) < 0.6;
-        let turned = is_turned_alike && !is_turned_otherwise(one, other, signs);
+        let written = aim::notated_aim_vector(&one.extended.best);
+        let expected = symmetric_hand_orientation(written, [a.along[frame], a.normal[frame]], &symmetry);
+        let is_turned_alike =
+            expected[0].angle_between(b.along[frame]) < 0.45 && expected[1].angle_between(b.normal[frame]) < 0.6;
+        let turned = is_turned_alike && !is_turned_otherwise(one, other, &symmetry);
         let shaped = match (&one.shape, &other.shape) {
             (Some(x), Some(y)) if x.best != y.best => {
                 let sure = x.residual.max(y.residual) < tuned().tree.sure;
@@ -235,7 +236,7 @@ pub(super) fn circling_lag_offset(relation: &HandRelation, first: Option<&Transc
 }
 
 /// Returns whether a hand is surely not turned like the mirror image of the other.
-fn is_turned_otherwise(one: &HandReading, other: &HandReading, signs: DVec3) -> bool {
+fn is_turned_otherwise(one: &HandReading, other: &HandReading, symmetry: &HandSymmetry) -> bool {
     let directions = |seen: &HandReading| {
         let along = aim::notated_aim_vector(&seen.extended.best);
         let palm = seen.palm.as_ref()?;
@@ -247,9 +248,9 @@ fn is_turned_otherwise(one: &HandReading, other: &HandReading, signs: DVec3) -> 
     let (Some(one), Some(other)) = (directions(one), directions(other)) else {
         return false;
     };
-    one.iter()
-        .zip(other)
-        .any(|(own, other): (&DVec3, DVec3)| (*own * signs).angle_between(other) > 0.1)
+    let expected = symmetric_hand_orientation(one[0], one, symmetry);
+    let mut both = expected.iter().zip(other);
+    both.any(|(expected, other): (&DVec3, DVec3)| expected.angle_between(other) > 0.1)
 }
 
 fn share_or_split<T: Clone + PartialEq>(

@@ -125,13 +125,10 @@ impl<'s, 'i> HandActions<'s, 'i> {
             self.hand_course_mut(dominant).fingers.push(vec![value]);
         }
         for (dominant, (aim, symmetry)) in of_hands(&posture.palm, acting) {
-            let flipped = symmetry.is_some_and(|symmetry| symmetry.left_right);
-            let to = |palm: CompassDirection| {
-                if flipped {
-                    palm.mirrored_compass_direction()
-                } else {
-                    palm
-                }
+            // Two hands mirror their palms even if they point in parallel.
+            let to = |palm: CompassDirection| match symmetry {
+                Some(_) => palm.mirrored_compass_direction(),
+                None => palm,
             };
             let value = aimed_value(aim, to(aim.first).compass_letters().to_owned(), "palm", lost);
             self.hand_course_mut(dominant).palms.push(vec![value]);
