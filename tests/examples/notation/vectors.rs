@@ -9,8 +9,11 @@ use chereme_compose::MovementMaterial;
 use chereme_compose::notation::{AnimatorSettings, SignPerformer};
 use chereme_motion::glam::DVec3;
 use chereme_motion::{BodyPart, BodySide, Clip, HandFinger, ModelPose};
-use chereme_sign::hamnosys::sites::digit_joint;
-use chereme_sign::hamnosys::{BodyLanguage, CompassDirection, HandDigit, SpatialDirection, orientation};
+use chereme_sign::hamnosys::sites::{digit_joint, resolve_body_site};
+use chereme_sign::hamnosys::{
+    BodyLanguage, CompassDirection, HandDigit, HandPlace, LocationSide, NotatedSign, SidedLocation, SpatialDirection,
+    orientation,
+};
 use serde_json::Value;
 
 type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
@@ -44,6 +47,7 @@ const fn group(
 const HAND_AXIS: &str = "the reference's knuckles read up to 18° off its own rule";
 const LIMITS: &str = "the same; wrist and forearm have limits here";
 const LANDMARKS: &str = "landmarks, arms and hands differ between bodies";
+const FROM_LANDMARK: &str = "from the landmark; hands are of different sizes";
 
 /// The groups, in the order of the table.
 const VECTOR_GROUPS: [VectorGroup; 20] = [
@@ -54,9 +58,9 @@ const VECTOR_GROUPS: [VectorGroup; 20] = [
     group("palm reached, left hand, parallel", "°", 20.0, LIMITS, 0.18),
     group("palm reached, half-way direction", "°", 25.0, LIMITS, 0.53),
     group("palm reached, half-way palm", "°", 25.0, LIMITS, 0.42),
-    group("place in the face, no mark", "sw", 0.2, LANDMARKS, 0.00),
-    group("place in the face, close", "sw", 0.2, LANDMARKS, 0.00),
-    group("place in the face, touch", "sw", 0.2, LANDMARKS, 0.00),
+    group("place in the face, no mark", "sw", 0.2, FROM_LANDMARK, 0.00),
+    group("place in the face, close", "sw", 0.2, FROM_LANDMARK, 0.00),
+    group("place in the face, touch", "sw", 0.2, FROM_LANDMARK, 0.00),
     group("place before trunk and head, no mark", "sw", 0.2, LANDMARKS, 0.40),
     group("place before trunk and head, close", "sw", 0.2, LANDMARKS, 0.51),
     group("place at the trunk, touch", "sw", 0.2, LANDMARKS, 0.00),
@@ -213,9 +217,7 @@ impl<'a> VectorComparison<'a> {
 
     /// Performs a sign with this manual part; `attributes` are those of the sign.
     fn perform(&self, attributes: &str, manual: &str, whole: bool) -> Result<Clip> {
-        let text = format!("<sigml><hamgestural_sign gloss=\"V\"{attributes}>{manual}</hamgestural_sign></sigml>");
-        let (signs, _) = chereme_formats::sigml::read_sigml_signs(text.as_bytes())?;
-        let sign = &signs.first().ok_or("no sign was read")?.sign;
+        let sign = &read_sign(attributes, manual)?;
         Ok(match whole {
             true => self.performer.perform_sign(sign)?,
             false => self.performer.perform_first_posture(sign)?,
@@ -349,16 +351,45 @@ impl<'a> VectorComparison<'a> {
         Ok(())
     }
 
-    /// Adds the distance of the right palm from the reference's.
+    /// Adds the distance of the right palm from the reference's: from the landmark at places of the face.
     fn compare_palm(
         &mut self,
         [group, key]: [&str; 2],
         [attributes, hand, place]: [&str; 3],
         value: &Value,
     ) -> Result<()> {
-        let [right, _] = self.first_posture(&manual_part(attributes, hand, place))?;
-        self.add_difference(group, key, right.palm.distance(vector(&value["palm"])));
+        let manual = manual_part(attributes, hand, place);
+        let clip = self.perform("", &manual, false)?;
+        let model = clip.model_pose(0);
+        let right = self
+            .seen_hand(BodySide::Right, &model)
+            .ok_or("the body has no right hand with fingers")?;
+        let between = self.landmark_difference(&manual, key, &model).unwrap_or_default();
+        self.add_difference(group, key, right.palm.distance(vector(&value["palm"]) + between));
         Ok(())
+    }
+
+    /// Returns the vector from the reference's landmark of a place of the face to this body's.
+    fn landmark_difference(&self, manual: &str, key: &str, model: &ModelPose) -> Option<DVec3> {
+        let name = key.split(['|', '_']).next()?;
+        (FACE_LOCATIONS.contains(&name) && !key.ends_with("armextended")).then_some(())?;
+        let sign = read_sign("", manual).ok()?;
+        let Some(HandPlace::Body(place)) = &sign.sign.parts.first()?.posture.place else {
+            return None;
+        };
+        let (letter, side) = match place.site?.side {
+            Some(LocationSide::LeftAt | LocationSide::LeftBeside) => ("L", Some(LocationSide::LeftAt)),
+            Some(LocationSide::RightAt | LocationSide::RightBeside) => ("R", Some(LocationSide::RightAt)),
+            _ => ("C", None),
+        };
+        let landmarks = &self.vectors["body"]["landmarks"];
+        let mut letters = [letter, "C", "R"].into_iter();
+        let there = letters.find_map(|letter| landmarks.get(format!("S-{name}-{letter}")))?;
+        let site = resolve_body_site(&SidedLocation { side, ..place.site? }, BodySide::Right, false);
+        let anatomy = &self.stage.anatomy;
+        let skeleton = self.stage.clip.clip_skeleton();
+        let here = anatomy.landmark_place_position(skeleton, model, &site.landmark)?;
+        Some(anatomy.body_frame(model)?.to_body(here) + DVec3::from(site.offset) - vector(there))
     }
 
     /// Compares bends at base, middle and end joints: the worst of a hand's twelve.
@@ -455,6 +486,12 @@ impl<'a> VectorComparison<'a> {
         }
         Ok(())
     }
+}
+
+fn read_sign(attributes: &str, manual: &str) -> Result<NotatedSign> {
+    let text = format!("<sigml><hamgestural_sign gloss=\"V\"{attributes}>{manual}</hamgestural_sign></sigml>");
+    let (signs, _) = chereme_formats::sigml::read_sigml_signs(text.as_bytes())?;
+    Ok(signs.into_iter().next().ok_or("no sign was read")?.sign)
 }
 
 /// Returns the time from the first frame to the last.

@@ -10,7 +10,8 @@ use std::cell::OnceCell;
 
 use chereme_motion::{BodySide as Half, ModelPose};
 use chereme_sign::hamnosys::sites::{
-    BodyRegion, DigitFace, FLESH_DEPTH_ARM_LENGTHS, HandAt, NotatedHandPoint, hand_points, resolve_body_site,
+    BodyRegion, DigitFace, FLESH_DEPTH_ARM_LENGTHS, HandAt, NotatedHandPoint, hand_points, hands_apart_share,
+    is_place_of_first_point, resolve_body_site,
 };
 use chereme_sign::hamnosys::{BodyLocation, BodyPlace, HandDigit, Handshape, PlaceContact, SidedLocation};
 use glam::DVec3;
@@ -273,7 +274,8 @@ impl<'a> PosedBody<'a> {
             let touching = contact == Some(PlaceContact::Touch);
             let near = contact == Some(PlaceContact::Close);
             let small = touching || (near && !trunk);
-            let ahead = if small { 0.0 } else { hand.ahead };
+            let first_point = small || is_place_of_first_point(region, contact);
+            let ahead = if first_point { 0.0 } else { hand.ahead };
             let goal = self.hand_point_goal(spot, contact, n, ahead, symmetric);
             let within = goal.distance(hand.palm) < 1.2 * scene.hand;
             // A hand that touches has a part there, and no part is farther from the palm than this.
@@ -299,7 +301,11 @@ impl<'a> PosedBody<'a> {
                 } else {
                     0.0
                 };
-            let hand_spot = if small { meant_spot } else { hand.palm_middle_spot() };
+            let hand_spot = if first_point {
+                meant_spot
+            } else {
+                hand.palm_middle_spot()
+            };
             // A named part of the hand is at the place itself.
             let part = self.hand_point_goal(spot, contact, n, 0.0, symmetric);
             let mut add = |at: DVec3, named_parts: Option<&'c [NotatedHandPoint]>, cost: f64| {
@@ -359,14 +365,13 @@ impl<'a> PosedBody<'a> {
         let spot = self.named_spot(n, place)?;
         let goal = self.goal_of(n, place, symmetric)?;
         let region = spot.region_for(place.contact);
-        let near = place.contact == Some(PlaceContact::Close) && region != BodyRegion::Trunk;
         let hand_position = match &place.by {
             Some(by) => {
                 let acting_half = [self.scene.dominant, self.scene.dominant.opposite_side()][n];
                 let points = hand_points(by, acting_half, self.scene.dominant == Half::Left);
                 hand.mean_point_position(&points)
             }
-            None if near || place.contact == Some(PlaceContact::Touch) => hand.meant_hand_spot(spot.out, region).at,
+            None if is_place_of_first_point(region, place.contact) => hand.meant_hand_spot(spot.out, region).at,
             None => hand.palm,
         };
         Some(hand_position.distance(goal))
@@ -413,7 +418,7 @@ impl<'a> PosedBody<'a> {
         );
         let apart = if symmetric && spot.lateral == 0.0 {
             let side_sign = if n == 0 { -1.0 } else { 1.0 };
-            side_sign * scene.language.hands_apart * scene.shoulders
+            side_sign * scene.language.hands_apart * hands_apart_share(contact) * scene.shoulders
         } else {
             0.0
         };

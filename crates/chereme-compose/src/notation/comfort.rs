@@ -286,8 +286,8 @@ impl NotationSigner<'_> {
         match (place.contact, trunk) {
             _ if place.behind => 0.0,
             (None | Some(PlaceContact::ArmExtended), true) => 1.0,
-            (None | Some(PlaceContact::ArmExtended), false) | (Some(PlaceContact::Close), true) => l.room_close,
-            (Some(PlaceContact::Close), false) => l.room_face,
+            (Some(PlaceContact::ArmExtended), false) | (Some(PlaceContact::Close), true) => l.room_close,
+            (None | Some(PlaceContact::Close), false) => l.room_face,
             _ => 0.0,
         }
     }

@@ -7,7 +7,7 @@ use chereme_motion::BodySide;
 use chereme_motion::glam::DVec3;
 use chereme_sign::hamnosys::sites::{
     BodyRegion, BodySite, DigitFace, FLESH_DEPTH_ARM_LENGTHS, HandAt, NotatedHandPoint, TRUNK_FRONT_SHOULDER_WIDTHS,
-    coming_first, hand_points, resolve_body_site,
+    coming_first, hand_points, hands_apart_share, is_place_of_first_point, resolve_body_site,
 };
 use chereme_sign::hamnosys::{
     BodyLocation, BodyPlace, HandConstellation, HandDigit, HandPlace, HandSite, PlaceContact, SidedLocation,
@@ -127,13 +127,13 @@ impl SignPlanner<'_> {
             contact,
             Some(PlaceContact::Touch | PlaceContact::Interlock | PlaceContact::Cross | PlaceContact::Brushing)
         ) && !site.site.beside;
-        let aside = contact == Some(PlaceContact::Touch) && site.site.region == BodyRegion::Face;
-        let near = touching || aside || contact == Some(PlaceContact::Close);
+        let aside = contact == Some(PlaceContact::Touch) && site.site.beside;
         let region = site.site.region_for(contact);
+        let first = touching || aside || (is_place_of_first_point(region, contact) && region != BodyRegion::Trunk);
         let facing = site.out * if place.behind { -1.0 } else { 1.0 };
         let points = match &place.by {
             Some(by) => hand_points(by, side, frame.mirrored),
-            None if touching || (near && region != BodyRegion::Trunk) => {
+            None if first => {
                 vec![self.planned_hands().leading_hand_point(n, -facing, region)]
             }
             None => vec![NotatedHandPoint::Palm],
@@ -158,7 +158,7 @@ impl SignPlanner<'_> {
             self.lay_flat_hand(n, &points, site_point);
         }
         let placed_point = match apart {
-            true if !touching && site.site.lateral == 0.0 => self.signer.move_to_own_shoulder(n, site_point),
+            true if !touching && site.site.lateral == 0.0 => self.signer.move_to_own_shoulder(n, site_point, contact),
             true if touching
                 && site.site.region == BodyRegion::Trunk
                 && site.site.lateral * side.side_sign() >= 0.0 =>
@@ -345,9 +345,10 @@ impl SignPlanner<'_> {
 
 impl NotationSigner<'_> {
     /// Moves a place in the middle to the front of the hand's own shoulder.
-    fn move_to_own_shoulder(&self, n: usize, at: DVec3) -> DVec3 {
+    fn move_to_own_shoulder(&self, n: usize, at: DVec3, contact: Option<PlaceContact>) -> DVec3 {
         let stage = self.stage;
-        let by = self.sides[n].side_sign() * self.language.hands_apart * stage.shoulders;
+        let apart = self.language.hands_apart * hands_apart_share(contact);
+        let by = self.sides[n].side_sign() * apart * stage.shoulders;
         at + stage.left * by
     }
 

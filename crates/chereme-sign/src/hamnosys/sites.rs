@@ -65,24 +65,48 @@ pub fn region_for(region: BodyRegion, level: bool, contact: Option<PlaceContact>
     }
 }
 
+/// Returns whether a hand at a place, of which no part is named, is there with the point that meets it first: in contact, and
+/// at the head and arms unless the arm is extended; else with the middle of its palm.
+#[must_use]
+pub fn is_place_of_first_point(region: BodyRegion, contact: Option<PlaceContact>) -> bool {
+    match contact {
+        None | Some(PlaceContact::Close) => region != BodyRegion::Trunk,
+        Some(PlaceContact::ArmExtended) => false,
+        Some(_) => true,
+    }
+}
+
+/// Returns the share of their usual distance from the middle that two hands keep at a place there.
+#[must_use]
+pub fn hands_apart_share(contact: Option<PlaceContact>) -> f64 {
+    match contact {
+        Some(PlaceContact::Close) => 0.45,
+        _ => 1.0,
+    }
+}
+
 /// Distance from the middle of the `at` side of the trunk, in shoulder widths.
 const AT_SIDE_SHOULDER_WIDTHS: f64 = 0.30;
 /// Distance from the middle of a hand before a place at the `at` side, in shoulder widths.
 const BEFORE_SIDE_SHOULDER_WIDTHS: f64 = 0.45;
 /// Distance from the middle of a hand next to the body, in shoulder widths.
-const BESIDE_BODY_SHOULDER_WIDTHS: f64 = 0.80;
+const BESIDE_BODY_SHOULDER_WIDTHS: f64 = 0.85;
 
 /// Inward distance from a place next to the head to the point that a hand touches there, in shoulder
 /// widths: at the temple, the cheek, the jaw.
-const TOUCHED_BESIDE: f64 = 0.22;
+const TOUCHED_BESIDE_HEAD: f64 = 0.12;
+/// The same next to the trunk: at its side.
+const TOUCHED_BESIDE_TRUNK: f64 = BESIDE_BODY_SHOULDER_WIDTHS - 0.46;
+/// Distance from the front of the trunk back to its side, in shoulder widths.
+const SIDE_OF_TRUNK_BACK: f64 = 0.30;
 /// Distance from the middle of the body to the front of the trunk, in shoulder widths.
 pub const TRUNK_FRONT_SHOULDER_WIDTHS: f64 = 0.33;
 /// Distance from the bone of an arm to its skin, in lengths of the arm.
 pub const FLESH_DEPTH_ARM_LENGTHS: f64 = 0.08;
-/// Sideways shift of a hand before a place of head or arm, as a share of the place's own distance from the middle.
+/// Sideways shift of an extended arm before a place of head or arm, as a share of the place's own distance from the middle.
 const SIDEWAYS_SHIFT_SHARE: f64 = 0.5;
 /// Share of the usual distance that a hand next to the trunk is in front of it.
-const BESIDE_NEARER: f64 = 0.5;
+const BESIDE_NEARER: f64 = 0.85;
 
 /// The position that a place gives to a hand, from the place or from the middle of the body; lengths in metres.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -128,8 +152,13 @@ impl HandAt {
             Some(PlaceContact::Close) if trunk => language.near_trunk,
             Some(PlaceContact::Close) => language.near_face,
             Some(_) if !beside => return Self::Place,
-            Some(PlaceContact::Touch) if region == BodyRegion::Face => {
-                let out = -TOUCHED_BESIDE * shoulders;
+            Some(PlaceContact::Touch) => {
+                let inwards = if trunk {
+                    TOUCHED_BESIDE_TRUNK
+                } else {
+                    TOUCHED_BESIDE_HEAD
+                };
+                let out = -inwards * shoulders;
                 return Self::Off { out, left: 0.0 };
             }
             _ if trunk => language.medium_trunk,
@@ -147,11 +176,9 @@ impl HandAt {
                 forward: TRUNK_FRONT_SHOULDER_WIDTHS * shoulders + far * share + ahead,
             };
         }
-        let near = contact == Some(PlaceContact::Close) || beside;
-        let left = if near {
-            0.0
-        } else {
-            SIDEWAYS_SHIFT_SHARE * lateral * shoulders
+        let left = match contact {
+            Some(PlaceContact::ArmExtended) if !beside => SIDEWAYS_SHIFT_SHARE * lateral * shoulders,
+            _ => 0.0,
         };
         Self::Off { out: far, left }
     }
@@ -173,11 +200,15 @@ pub fn resolve_body_site(site: &SidedLocation<BodyLocation>, acting: Half, mirro
         } else {
             AT_SIDE_SHOULDER_WIDTHS
         };
-        let back = if half.is_some() { -0.04 } else { 0.0 };
+        let back = match half {
+            Some(_) if is_beside => -SIDE_OF_TRUNK_BACK,
+            Some(_) => -0.04,
+            None => 0.0,
+        };
         BodySite {
             landmark: landmark.to_owned(),
             offset: [sign * far, up, back],
-            out: [0.0, 0.0, 1.0],
+            out: if is_beside { [sign, 0.0, 0.0] } else { [0.0, 0.0, 1.0] },
             region: BodyRegion::Trunk,
             lateral: sign
                 * if is_beside {
@@ -192,7 +223,7 @@ pub fn resolve_body_site(site: &SidedLocation<BodyLocation>, acting: Half, mirro
     let face = |landmark: String, offset: [f64; 3], out: [f64; 3]| BodySite {
         landmark,
         offset: [
-            offset[0] + if is_beside { sign * 0.30 } else { 0.0 },
+            offset[0] + if is_beside { sign * 0.20 } else { 0.0 },
             offset[1],
             offset[2],
         ],

@@ -189,7 +189,8 @@ pub fn digit_joint(side: Half, digit: HandDigit, which: u8) -> BodyPart {
 #[must_use]
 pub fn coming_first(shape: &Handshape, [along, palm, radial]: [f64; 3], region: BodyRegion) -> NotatedHandPoint {
     let digit = leading_digit(shape);
-    let small = region != BodyRegion::Trunk;
+    // At small places a pointing finger is brought, of other hands their middle.
+    let small = region != BodyRegion::Trunk && points_with_digit(shape);
     let thumb = shape.form.class == HandClass::Fist && shape.form.thumb == Some(ThumbPosition::Out);
     let pinch = is_pinch(shape.form.class);
     let candidates = [
@@ -230,6 +231,17 @@ pub fn coming_first(shape: &Handshape, [along, palm, radial]: [f64; 3], region: 
     ];
     let best = candidates.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
     best.map_or(NotatedHandPoint::Palm, |(_, point)| point)
+}
+
+/// Returns whether a hand points or touches with single digits: by its class, or because digits are named.
+fn points_with_digit(shape: &Handshape) -> bool {
+    use HandClass::{Cee12, Cee12Open, Finger2, Finger23, Finger23Spread, Fist, Pinch12, Pinch12Open};
+    let named = !shape.special.0.is_empty() || (shape.form.class == Fist && !shape.exempt.0.is_empty());
+    named
+        || matches!(
+            shape.form.class,
+            Finger2 | Finger23 | Finger23Spread | Pinch12 | Pinch12Open | Cee12 | Cee12Open
+        )
 }
 
 /// Returns the digit that a handshape points or touches with; `None` for a closed fist.
@@ -306,7 +318,14 @@ mod tests {
         assert_eq!(first([0.0, 1.0, 0.0], BodyRegion::Trunk), NotatedHandPoint::Palm);
         assert_eq!(
             first([0.0, 1.0, 0.0], BodyRegion::Face),
-            NotatedHandPoint::Tip(HandDigit::Middle, DigitFace::Palmar)
+            NotatedHandPoint::Palm,
+            "the middle of a flat hand"
+        );
+        let mut pointing = flat.clone();
+        pointing.form.class = HandClass::Finger2;
+        assert_eq!(
+            coming_first(&pointing, [0.0, 1.0, 0.0], BodyRegion::Face),
+            NotatedHandPoint::Tip(HandDigit::Index, DigitFace::Palmar)
         );
         assert_eq!(first([0.0, 0.0, -1.0], BodyRegion::Face), NotatedHandPoint::Ulnar);
     }
