@@ -50,7 +50,7 @@ const LANDMARKS: &str = "landmarks, arms and hands differ between bodies";
 const FROM_LANDMARK: &str = "from the landmark; hands are of different sizes";
 
 /// The groups, in the order of the table.
-const VECTOR_GROUPS: [VectorGroup; 20] = [
+const VECTOR_GROUPS: [VectorGroup; 22] = [
     group("palm as asked, one hand", "°", 20.0, HAND_AXIS, 0.63),
     group("palm reached, one hand", "°", 20.0, LIMITS, 0.34),
     group("fingers reached, one hand", "°", 20.0, LIMITS, 0.32),
@@ -74,6 +74,8 @@ const VECTOR_GROUPS: [VectorGroup; 20] = [
     group("place between two", "sw", 0.2, LANDMARKS, 0.27),
     group("place, both hands", "sw", 0.2, LANDMARKS, 0.00),
     group("place, hands together", "sw", 0.2, LANDMARKS, 0.18),
+    group("place, the hand at the other hand", "sw", 0.2, LANDMARKS, 0.0),
+    group("place, the other hand under it", "sw", 0.2, LANDMARKS, 0.0),
     group(
         "joints of fingers",
         "°",
@@ -348,6 +350,17 @@ impl<'a> VectorComparison<'a> {
                 value,
             )?;
         }
+        for (key, value) in self.sampled_section("b_hand_of_other_hand") {
+            let (part, contact) = key.split_once('_').unwrap_or((key, ""));
+            let touched = format!("<location_hand location=\"{part}\"{}/>", attribute("contact", contact));
+            let held = body_place("stomach", "", "", "");
+            let place = format!("<split_location>{touched}{held}</split_location>");
+            let seen = self.first_posture(&manual_part("", SPLIT_HANDS, &place))?;
+            let groups = ["place, the hand at the other hand", "place, the other hand under it"];
+            for (n, (group, palm)) in groups.into_iter().zip(["palm", "left_palm"]).enumerate() {
+                self.add_difference(group, key, seen[n].palm.distance(vector(&value[palm])));
+            }
+        }
         Ok(())
     }
 
@@ -511,6 +524,12 @@ const REFERENCE_GAPS: [[&str; 2]; 6] = [
 ];
 
 const LEFT_RIGHT: &str = " both_hands=\"true\" lr_symm=\"true\"";
+/// Flat hands, the dominant one's palm on the other's.
+const SPLIT_HANDS: &str = concat!(
+    r#"<split_handconfig><handconfig handshape="flat"/><handconfig handshape="flat"/></split_handconfig>"#,
+    r#"<split_handconfig><handconfig extfidir="ol"/><handconfig extfidir="or"/></split_handconfig>"#,
+    r#"<split_handconfig><handconfig palmor="d"/><handconfig palmor="u"/></split_handconfig>"#
+);
 const PARALLEL: &str = " both_hands=\"true\"";
 const FACE_LOCATIONS: [&str; 19] = [
     "forehead",
