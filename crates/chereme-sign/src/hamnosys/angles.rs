@@ -86,7 +86,8 @@ pub fn hand_angles(shape: &Handshape, language: &BodyLanguage) -> HandAngles {
         cross_two_fingers(&mut hand, contact);
     }
     thumb_extra(&mut hand, shape);
-    if let Some(bend) = shape.bends[0] {
+    let fist_bend = shape.form.bend.filter(|_| shape.form.class == HandClass::Fist);
+    if let Some(bend) = shape.bends[0].or(fist_bend) {
         let [_, middle, end] = bend_units(bend);
         hand.thumb[3] = middle / 4.0 * language.bend_thumb_middle;
         hand.thumb[4] = end / 4.0 * language.bend_thumb_end;
@@ -134,10 +135,12 @@ fn class_bend_units(bend: FingerBend, class: HandClass) -> JointBendUnits {
     match bend {
         FingerBend::Bent if pinch => [3.4, 0.6, 0.4],
         FingerBend::Round if pinch => [2.3, 2.4, 2.2],
-        FingerBend::Hooked if pinch => [2.0, 3.2, 2.9],
-        FingerBend::DoubleBent if pinch => [2.8, 2.4, 1.0],
-        FingerBend::DoubleHooked if pinch => [2.6, 3.2, 2.8],
-        FingerBend::Bent if cee => [3.0, 0.4, 0.4],
+        FingerBend::Hooked if pinch => [3.0, 4.0, 3.0],
+        FingerBend::DoubleBent if pinch => [4.0, 3.0, 2.0],
+        FingerBend::DoubleHooked if pinch => [4.0, 3.0, 3.0],
+        FingerBend::HalfBent if pinch => [3.0, 2.5, 2.5],
+        FingerBend::Bent if cee => [3.0, 0.0, 0.0],
+        FingerBend::HalfBent if cee => [1.0, 2.5, 2.5],
         FingerBend::Round if cee => [1.0, 3.0, 3.0],
         FingerBend::Hooked if cee => [2.0, 4.0, 4.0],
         FingerBend::DoubleBent if cee => [2.0, 3.0, 2.0],
@@ -164,7 +167,14 @@ fn form_bend_shape(form: &HandshapeForm, shape: &Handshape) -> HandBendShape {
         HandClass::Cee12Open => ([1.5, 1.8, 1.9], OPEN_FINGER_BENDS, spread_beside_pinch(chosen)),
         HandClass::CeeAll => ([1.2, 1.8, 1.9], CLOSED_FINGER_BENDS, [0.0; 4]),
     };
-    let mut selected_bend = form.bend.map_or(own, |bend| class_bend_units(bend, class));
+    // Bends act on extended fingers: of a fist, on the thumb. A pinch or cee that is straight would not close.
+    let extends = matches!(
+        class,
+        HandClass::Flat | HandClass::Finger2 | HandClass::Finger23 | HandClass::Finger23Spread | HandClass::Finger2345
+    );
+    let bends = |bend: &FingerBend| extends || (class != HandClass::Fist && bend_units(*bend) != [0.0; 3]);
+    let bend = form.bend.filter(bends);
+    let mut selected_bend = bend.map_or(own, |bend| class_bend_units(bend, class));
     match form.opening {
         Some(CeeOpening::Tight) => selected_bend[0] += 0.6,
         Some(CeeOpening::Slack) => selected_bend[0] -= 0.8,
