@@ -94,8 +94,11 @@ impl SignPlanner<'_> {
         match place {
             HandPlace::Body(body) => {
                 let axes = named.map(|frame| frame.map(|frame| frame.axes));
-                let room = match (body.site, body.contact, follows) {
-                    (None, None, Some(_)) => Some(self.signer.anywhere()),
+                let free = body
+                    .site
+                    .is_none_or(|site| site.at == BodyLocation::NeutralSpace && site.side.is_none());
+                let room = match (body.contact, follows) {
+                    (None, Some(_)) if free => Some(self.signer.anywhere(1.0)),
                     _ => self.signer.place_room_share(self.signer.body_place_room(body)),
                 };
                 self.shift_strained_hands(room, axes, named, follows);
@@ -113,7 +116,7 @@ impl SignPlanner<'_> {
             }
             HandPlace::Hands(hands) => {
                 let room = match (&hands.at, follows) {
-                    (None, Some(_)) => Some(self.signer.anywhere()),
+                    (None, Some(_)) => Some(self.signer.anywhere(tuned().comfort.taken)),
                     (at, _) => self
                         .signer
                         .place_room_share(at.as_ref().map_or(1.0, |at| self.signer.body_place_room(at))),
@@ -126,7 +129,8 @@ impl SignPlanner<'_> {
                 let [Some(a), Some(b)] = named else { return };
                 if a.is_mirrored_by(&b) {
                     let one = Some(DVec3::ONE);
-                    self.shift_strained_hands(Some(self.signer.anywhere()), [one; 2], named, follows);
+                    let room = self.signer.anywhere(tuned().comfort.taken);
+                    self.shift_strained_hands(Some(room), [one; 2], named, follows);
                 }
             }
             HandPlace::Hand(_) | HandPlace::Named(_) => {}
@@ -176,8 +180,7 @@ impl SignPlanner<'_> {
         named: ActingHands,
         follows: Option<(&[NotatedMotion], ActingHands)>,
     ) {
-        let Some(room) = room.map(|ends| ends.map(|ends| ends * (tuned().comfort.taken * self.signer.stage.arm)))
-        else {
+        let Some(room) = room.map(|ends| ends.map(|ends| ends * self.signer.stage.arm)) else {
             return;
         };
         let mut strained = self.strained_stances(named, follows, |n, _| axes[n].is_some());
@@ -224,17 +227,18 @@ impl NotationSigner<'_> {
             DVec3::new(l.room_side, l.room_down, l.room_back),
             DVec3::new(l.room_side, l.room_up, l.room_forward),
         ];
-        (share > 0.0).then(|| ends.map(|ends| ends.max(DVec3::splat(1e-4)) * share))
+        let taken = share * tuned().comfort.taken;
+        (share > 0.0).then(|| ends.map(|ends| ends.max(DVec3::splat(1e-4)) * taken))
     }
 
-    /// Returns the room of a hand without a notated place, as its lower and upper ends in arm lengths.
-    fn anywhere(&self) -> [DVec3; 2] {
+    /// Returns a share of the room of a hand without a notated place, as its lower and upper ends in arm lengths.
+    fn anywhere(&self, share: f64) -> [DVec3; 2] {
         let l = self.language;
         [
             DVec3::new(l.room_free_out, l.room_free_down, l.room_free_back),
             DVec3::new(l.room_free_in, l.room_free_up, l.room_free_forward),
         ]
-        .map(|ends| ends.max(DVec3::splat(1e-4)))
+        .map(|ends| ends.max(DVec3::splat(1e-4)) * share)
     }
 
     /// Returns the strain of an arm whose hand is shifted by an offset (m).
@@ -388,11 +392,11 @@ mod tests {
             planner.shift_strained_hands(Some([DVec3::splat(room); 2]), axes, who, None);
             let after = planner.planned_hands().current_hand_stance(0);
             let strain = |stance| planner.signer.arm_stance_strain(0, stance, DVec3::ZERO);
-            let ends = [DVec3::splat(room * tuned().comfort.taken * body.arm); 2];
+            let ends = [DVec3::splat(room * body.arm); 2];
             let by = after.point - before.point;
             (room_distance_share(by, ends), [strain(&before), strain(&after)])
         };
-        let (share, strain) = shifted(0.3, "d", "l");
+        let (share, strain) = shifted(0.135, "d", "l");
         assert!(
             strain[0] > tuned().comfort.strained && share > 0.0,
             "{share} {strain:?}"
@@ -401,10 +405,10 @@ mod tests {
             strain[1] + tuned().comfort.shifted * share * share < strain[0],
             "{strain:?}"
         );
-        let (share, strain) = shifted(1e-3, "d", "l");
+        let (share, strain) = shifted(4.5e-4, "d", "l");
         assert!(strain[0] > tuned().comfort.strained, "{strain:?}");
         assert_eq!(share, 0.0, "no place so near relieves the arm");
-        let (share, strain) = shifted(0.3, "l", "d");
+        let (share, strain) = shifted(0.135, "l", "d");
         assert!(
             strain[0] < tuned().comfort.strained && share == 0.0,
             "{share} {strain:?}"
