@@ -94,8 +94,9 @@ pub use agree::{
 pub use animate::NotationStaging;
 pub use annotate::{
     AnnotateOptions, AnnotateReport, AnnotationAction, AnnotationChange, AnnotationName, CopiedAnnotations, NewTier,
-    RemovedTiers, ReplacedValue, ReplacementReport, TierPropertyChange, TierRequestName, TierScheme, TierSelection,
-    TierValueSource, ValueSearch,
+    RemovedTiers, ReplacedValue, ReplacementReport, TierPropertyChange, TierRequestName, TierRoundOptions,
+    TierRoundReport, TierRoundRow, TierRoundScope, TierRoundWork, TierScheme, TierSelection, TierValueSource,
+    ValueSearch,
 };
 pub use annotate::{annotate_clipboard, annotate_paste, drag_limits, requests, snap, tier_values};
 pub use author::determine_author;

@@ -2,6 +2,9 @@
 
 message-command-annotate-nothing-written-would = nothing is written; it would be:
 line-command-annotate-added-tier = added tier:{ $id }, { $name }
+line-command-annotate-tiers-added-to-recording = added to { $recording }: { $tiers }
+line-command-annotate-recording-refuses = { $recording } refuses: { $why }
+line-command-annotate-tiers-of-recording = { $recording }: { $tiers } ({ $n })
 line-command-annotate-changed-tier = changed tier:{ $id }, { $name }
 line-command-annotate-changed-recording = changed recording:{ $id }, { $name }
 line-command-annotate-changed-signer = changed signer:{ $id }, { $name }
@@ -16,6 +19,8 @@ message-command-annotate-write-language-text-such-as-fr = write LANGUAGE=TEXT, s
 message-command-annotate-role-names-hand-hand-says = --role names the { $own } hand, and --hand says { $other }
 message-command-annotate-name-hand-once = name the hand once
 message-command-annotate-recording = which recording?
+message-command-annotate-recordings-named-twice = the recordings are named twice
+message-command-annotate-give-one-of-in-where-all = give one of --in, --where and --all
 message-command-annotate-name-with-in = name it with --in
 
 ## Help of commands and options.
@@ -25,6 +30,10 @@ help-command-annotate-recording-named-tiers-annotations-recording-3 = The record
 help-command-annotate-move-boundaries-nearest-frames-recording-s = Move boundaries to the nearest frames of the recording's movement
 help-command-annotate-treatment-annotations-in-way-one-added = The treatment of annotations in the way of one that is added or moved
 help-command-annotate-report-ids-all-annotations-without-at = Report the ids of all annotations; without it of at most 100 in JSON, and of at most 20 in text
+help-command-annotate-in-recordings-of-query = In all recordings with a token that a query finds, as in `chereme search`
+help-command-annotate-add-tiers-of-table = Add the tiers that the table needs and its recordings lack; their names say what they are about
+help-command-annotate-in-all-recordings = In all recordings of the corpus
+help-command-annotate-skip-refusing-recordings = Leave out recordings that refuse the change; without it nothing is done if one of them refuses
 help-command-annotate-they-stay-change-refused = They stay, and the change is refused
 help-command-annotate-they-pushed-along-as-far-as = They are pushed along as far as necessary
 help-command-annotate-all-later-annotations-tier-move-along = All later annotations of the tier move along
@@ -58,9 +67,8 @@ help-command-annotate-take-text-as-regular-expression-1 = Take the text as a reg
 help-command-annotate-only-values-equal-whole-text = Only values that equal the whole text
 help-command-annotate-only-tiers-with-this-name-where = Only tiers with this name, where * stands for any letters; or tier:12
 help-command-annotate-report-what-would-change-write-nothing = Report what would change, and write nothing
-help-command-annotate-shift-all-annotations-tiers-in-time = Shift all annotations of tiers in time, in the recording named by --in
+help-command-annotate-shift-all-annotations-tiers-in-time = Shift all annotations of tiers in time, in the recording named by --in or in several
 help-command-annotate-amount-such-as-0-2s-200ms = The amount, such as 0.2s or -200ms; a negative amount shifts towards the start
-help-command-annotate-report-how-many-annotations-would-move = Report how many annotations would move, and write nothing
 help-command-annotate-paste-annotations-window-spreadsheet-copied-into = Paste annotations that the window or a spreadsheet copied, into the recording named by --in
 help-command-annotate-each-line-text-has-tier-start = Each line of the text has a tier, a start, an end and a value, with tabs between them; titles may give another order. Annotations keep their times and tiers, unless --at and --tier give others.
 help-command-annotate-text-standard-input = The text; - is standard input
@@ -68,7 +76,7 @@ help-command-annotate-tier-annotations-without-tier-name-with = The tier of anno
 help-command-annotate-start-first-annotation-others-keep-their = The start of the first annotation; the others keep their distances from it
 help-command-annotate-paste-annotations-have-place-even-if = Paste the annotations that have a place even if others have none
 help-command-annotate-carry-out-changes-in-table-all = Carry out the changes in a table, all of them or none
-help-command-annotate-add-tier-recording-named-by-in = Add a tier to the recording named by --in
+help-command-annotate-add-tier-recording-named-by-in = Add a tier to the recording named by --in, or to several
 help-command-annotate-name = Its name
 help-command-annotate-parent-tier = The parent tier
 help-command-annotate-relation-parent-time-subdivision-included-in = Its relation to the parent: Time_Subdivision, Included_In, Symbolic_Subdivision or Symbolic_Association
@@ -108,6 +116,7 @@ help-command-annotate-annotator-removes-name = The annotator; "" removes the nam
 help-command-annotate-language-values-such-as-de-removes = The language of its values, such as de; "" removes it
 help-command-annotate-subject-annotations-word-before-dot-as = The subject of its annotations; the word before the dot, as in right.placement, is their hand
 help-command-annotate-each-call-one-operation-chereme-undo = Each call is one operation that `chereme undo` takes back. A change that would break a rule of the tiers is refused, with a remedy. A time is 1.5, 1.5s, 1500ms, 0:01.500 or a frame such as f90. A tier is tier:12, or its name with --in RECORDING; an annotation is annotation:12, or its id in the file from which it was imported.
+help-command-annotate-work-on-tiers-of-several = Work on tiers (add-tier, add-tiers, tier, copy-tier, remove-tier, shift) takes several recordings, too: --in 'S07*' by name, --in signer:S07, --where QUERY by their tokens, or --all. A tier is then a name, where * stands for any letters; recordings without it stay as they are. If a recording refuses, nothing is done, unless --skip leaves it out.
 help-command-annotate-actions-on-annotations-add-set-split = Actions on annotations: add, set, split, merge, reorder, remove, replace, shift, paste, from. On tiers: add-tier, add-tiers, tier, copy-tier, remove-tier. On other things: recording, signer, sign, cite, prefer.
 help-command-annotate-dependent-tiers-shifted-too-without-tier = Dependent tiers are shifted, too. Without --tier all tiers of the recording are shifted.
 help-command-annotate-columns-recording-tier-start-end-duration = Columns: recording, tier, start, end, duration, value, action (add, set, remove), id, parent. The title (start_ms, `end [s]`), the number (1500ms) or --unit gives the unit of times; without any of them times are in seconds. The tab-delimited text that ELAN exports is such a table, with and without titles.

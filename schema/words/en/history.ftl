@@ -36,6 +36,19 @@ history-copy-tier = Tier { $tier } of { $recording } copied as { $copy }, with {
     [one] { $annotations } annotation
    *[other] { $annotations } annotations
 }
+history-work-on-tiers = { $tiers ->
+    [one] { $tiers } tier
+   *[other] { $tiers } tiers
+} { $deed ->
+    [added] added
+    [copied] copied
+    [removed] removed
+    [shifted] moved in time
+   *[changed] changed
+} in { $recordings ->
+    [one] { $recordings } recording
+   *[other] { $recordings } recordings
+}
 history-order-tiers = Tiers put in order: { $recording }
 history-add-value = Value { $value } added to { $inventory }
 history-merge-values = Value { $value } merged into { $into } in { $inventory }

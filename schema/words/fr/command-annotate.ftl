@@ -2,6 +2,9 @@
 
 message-command-annotate-nothing-written-would = rien n’est écrit ; ce serait :
 line-command-annotate-added-tier = ajouté : tier:{ $id }, { $name }
+line-command-annotate-tiers-added-to-recording = ajouté à { $recording } : { $tiers }
+line-command-annotate-recording-refuses = { $recording } refuse : { $why }
+line-command-annotate-tiers-of-recording = { $recording } : { $tiers } ({ $n })
 line-command-annotate-changed-tier = modifié : tier:{ $id }, { $name }
 line-command-annotate-changed-recording = modifié : recording:{ $id }, { $name }
 line-command-annotate-changed-signer = modifié : signer:{ $id }, { $name }
@@ -16,6 +19,8 @@ message-command-annotate-write-language-text-such-as-fr = écrivez LANGUE=TEXTE,
 message-command-annotate-role-names-hand-hand-says = --role nomme la main { $own }, et --hand dit { $other }
 message-command-annotate-name-hand-once = nommez la main une fois
 message-command-annotate-recording = quel enregistrement ?
+message-command-annotate-recordings-named-twice = les enregistrements sont nommés deux fois
+message-command-annotate-give-one-of-in-where-all = donnez l’un de --in, --where et --all
 message-command-annotate-name-with-in = nommez-le avec --in
 
 ## Help of commands and options.
@@ -25,6 +30,10 @@ help-command-annotate-recording-named-tiers-annotations-recording-3 = L’enregi
 help-command-annotate-move-boundaries-nearest-frames-recording-s = Amener les limites aux images les plus proches du mouvement
 help-command-annotate-treatment-annotations-in-way-one-added = Le sort des annotations qui gênent celle qu’on ajoute ou déplace
 help-command-annotate-report-ids-all-annotations-without-at = Donner les numéros de toutes les annotations ; sinon de 100 au plus en JSON, et de 20 au plus en texte
+help-command-annotate-in-recordings-of-query = Dans tous les enregistrements dont une requête trouve une occurrence, comme dans `chereme search`
+help-command-annotate-add-tiers-of-table = Ajouter les acteurs dont la table a besoin et qui manquent à ses enregistrements ; leur nom dit de quoi ils parlent
+help-command-annotate-in-all-recordings = Dans tous les enregistrements du corpus
+help-command-annotate-skip-refusing-recordings = Écarter les enregistrements qui refusent la modification ; sans cela, rien n’est fait si l’un d’eux refuse
 help-command-annotate-they-stay-change-refused = Elles restent, et la modification est refusée
 help-command-annotate-they-pushed-along-as-far-as = Elles sont poussées autant qu’il le faut
 help-command-annotate-all-later-annotations-tier-move-along = Toutes les annotations suivantes de l’acteur se déplacent aussi
@@ -58,9 +67,8 @@ help-command-annotate-take-text-as-regular-expression-1 = Lire le texte comme un
 help-command-annotate-only-values-equal-whole-text = Seulement les valeurs qui sont ce texte et rien d’autre
 help-command-annotate-only-tiers-with-this-name-where = Seulement les acteurs de ce nom, * pour des lettres quelconques ; ou tier:12
 help-command-annotate-report-what-would-change-write-nothing = Dire ce qui changerait, sans rien écrire
-help-command-annotate-shift-all-annotations-tiers-in-time = Décaler dans le temps toutes les annotations d’acteurs de l’enregistrement nommé par --in
+help-command-annotate-shift-all-annotations-tiers-in-time = Décaler dans le temps toutes les annotations d’acteurs, dans l’enregistrement nommé par --in ou dans plusieurs
 help-command-annotate-amount-such-as-0-2s-200ms = La durée, comme 0.2s ou -200ms ; une durée négative décale vers le début
-help-command-annotate-report-how-many-annotations-would-move = Dire combien d’annotations se déplaceraient, sans rien écrire
 help-command-annotate-paste-annotations-window-spreadsheet-copied-into = Coller des annotations copiées par la fenêtre ou un tableur, dans l’enregistrement nommé par --in
 help-command-annotate-each-line-text-has-tier-start = Chaque ligne du texte a un acteur, un début, une fin et une valeur, séparés par des tabulations ; des titres peuvent donner un autre ordre. Les annotations gardent leurs temps et leurs acteurs, sauf si --at et --tier en donnent d’autres.
 help-command-annotate-text-standard-input = Le texte ; - est l’entrée standard
@@ -68,7 +76,7 @@ help-command-annotate-tier-annotations-without-tier-name-with = L’acteur des a
 help-command-annotate-start-first-annotation-others-keep-their = Le début de la première annotation ; les autres gardent leur distance à elle
 help-command-annotate-paste-annotations-have-place-even-if = Coller les annotations qui ont une place, même si d’autres n’en ont pas
 help-command-annotate-carry-out-changes-in-table-all = Faire les modifications d’une table, toutes ou aucune
-help-command-annotate-add-tier-recording-named-by-in = Ajouter un acteur à l’enregistrement nommé par --in
+help-command-annotate-add-tier-recording-named-by-in = Ajouter un acteur à l’enregistrement nommé par --in, ou à plusieurs
 help-command-annotate-name = Son nom
 help-command-annotate-parent-tier = L’acteur parent
 help-command-annotate-relation-parent-time-subdivision-included-in = Sa relation au parent : Time_Subdivision, Included_In, Symbolic_Subdivision ou Symbolic_Association
@@ -108,6 +116,7 @@ help-command-annotate-annotator-removes-name = L’annotateur ; "" enlève le no
 help-command-annotate-language-values-such-as-de-removes = La langue de ses valeurs, comme de ; "" l’enlève
 help-command-annotate-subject-annotations-word-before-dot-as = L’objet de ses annotations ; le mot avant le point, comme dans right.placement, est leur main
 help-command-annotate-each-call-one-operation-chereme-undo = Chaque appel est une opération que `chereme undo` annule. Une modification qui romprait une règle des acteurs est refusée, avec un remède. Un temps s’écrit 1.5, 1.5s, 1500ms, 0:01.500 ou comme image, par exemple f90. Un acteur est tier:12, ou son nom avec --in RECORDING ; une annotation est annotation:12, ou son id dans le fichier dont elle a été importée.
+help-command-annotate-work-on-tiers-of-several = Le travail sur les acteurs (add-tier, add-tiers, tier, copy-tier, remove-tier, shift) se fait aussi dans plusieurs enregistrements : --in 'S07*' par leur nom, --in signer:S07, --where REQUÊTE par leurs occurrences, ou --all. Un acteur est alors un nom, où * remplace des lettres quelconques ; les enregistrements sans cet acteur restent comme ils sont. Si un enregistrement refuse, rien n’est fait, à moins que --skip ne l’écarte.
 help-command-annotate-actions-on-annotations-add-set-split = Actions sur les annotations : add, set, split, merge, reorder, remove, replace, shift, paste, from. Sur les acteurs : add-tier, add-tiers, tier, copy-tier, remove-tier. Sur le reste : recording, signer, sign, cite, prefer.
 help-command-annotate-dependent-tiers-shifted-too-without-tier = Les acteurs dépendants suivent. Sans --tier, tous les acteurs de l’enregistrement se déplacent.
 help-command-annotate-columns-recording-tier-start-end-duration = Colonnes : recording, tier, start, end, duration, value, action (add, set, remove), id, parent. Le titre (start_ms, `end [s]`), le nombre (1500ms) ou --unit donne l’unité des temps ; sinon les temps sont en secondes. Le texte à tabulations qu’ELAN exporte est une telle table, avec ou sans titres.

@@ -36,6 +36,16 @@ history-copy-tier = Acteur { $tier } de { $recording } copié sous le nom { $cop
     [one] { $annotations } annotation
    *[other] { $annotations } annotations
 }
+history-work-on-tiers = { $deed ->
+    [added] Acteurs ajoutés : { $tiers }
+    [copied] Acteurs copiés : { $tiers }
+    [removed] Acteurs supprimés : { $tiers }
+    [shifted] Acteurs déplacés dans le temps : { $tiers }
+   *[changed] Acteurs modifiés : { $tiers }
+}, dans { $recordings ->
+    [one] { $recordings } enregistrement
+   *[other] { $recordings } enregistrements
+}
 history-order-tiers = Acteurs remis en ordre : { $recording }
 history-add-value = Valeur { $value } ajoutée à { $inventory }
 history-merge-values = Valeur { $value } fusionnée avec { $into } dans { $inventory }

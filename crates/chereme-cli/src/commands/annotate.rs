@@ -9,7 +9,7 @@ use chereme_corpus::words::{fill_text_braces, trouble_words};
 use chereme_corpus::{
     AnnotateOptions, AnnotateReport, AnnotationAction, AnnotationChange, AnnotationName, Corpus, CorpusAddress,
     CorpusError, NeighbourMode, ProgressReceiver, ReportFinding, RowName, TableMoment, TableTimeUnit, TierRequestName,
-    TierSelection, ValueSearch,
+    TierRoundWork, TierSelection, ValueSearch,
 };
 use clap::Subcommand;
 
@@ -23,6 +23,10 @@ use crate::streams;
 /// Each call is one operation that `chereme undo` takes back. A change that would break a rule of the tiers is refused,
 /// with a remedy. A time is 1.5, 1.5s, 1500ms, 0:01.500 or a frame such as f90. A tier is tier:12, or its name with
 /// --in RECORDING; an annotation is annotation:12, or its id in the file from which it was imported.
+///
+/// Work on tiers (add-tier, add-tiers, tier, copy-tier, remove-tier, shift) takes several recordings, too: --in 'S07*' by
+/// name, --in signer:S07, --where QUERY by their tokens, or --all. A tier is then a name, where * stands for any letters;
+/// recordings without it stay as they are. If a recording refuses, nothing is done, unless --skip leaves it out.
 ///
 /// Actions on annotations: add, set, split, merge, reorder, remove, replace, shift, paste, from. On tiers: add-tier,
 /// add-tiers, tier, copy-tier, remove-tier. On other things: recording, signer, sign, cite, prefer.
@@ -146,7 +150,7 @@ enum AnnotateCommand {
         #[arg(long)]
         dry_run: bool,
     },
-    /// Shift all annotations of tiers in time, in the recording named by --in
+    /// Shift all annotations of tiers in time, in the recording named by --in or in several
     ///
     /// Dependent tiers are shifted, too. Without --tier all tiers of the recording are shifted.
     Shift {
@@ -156,9 +160,8 @@ enum AnnotateCommand {
         /// Only tiers with this name, where * stands for any letters; or tier:12
         #[arg(long = "tier", value_name = "TIER")]
         tiers: Vec<String>,
-        /// Report how many annotations would move, and write nothing
-        #[arg(long)]
-        dry_run: bool,
+        #[command(flatten)]
+        round: tiers_command::TierRoundArgs,
     },
     /// Carry out the changes in a table, all of them or none
     ///
@@ -171,6 +174,9 @@ enum AnnotateCommand {
         /// The unit of bare numbers: s, ms or frames
         #[arg(long)]
         unit: Option<TableTimeUnit>,
+        /// Add the tiers that the table needs and its recordings lack; their names say what they are about
+        #[arg(long)]
+        add_tiers: bool,
     },
     /// Paste annotations that the window or a spreadsheet copied, into the recording named by --in
     ///
@@ -203,13 +209,22 @@ pub(super) fn run(cli: &CommandLine, args: &AnnotateArgs, output: &mut CommandOu
         ..AnnotateOptions::default()
     };
     let actions = match &args.action {
-        AnnotateCommand::From { file, unit } => {
-            let options = AnnotateOptions { unit: *unit, ..options };
+        AnnotateCommand::From { file, unit, add_tiers } => {
+            let (unit, add_tiers) = (*unit, *add_tiers);
+            let options = AnnotateOptions {
+                unit,
+                add_tiers,
+                ..options
+            };
             let (report, findings) = annotate_from_table(&mut corpus, file, recording, &options)?;
             for finding in &findings {
                 let line = finding.line.map(|line| format!("line {line}: ")).unwrap_or_default();
                 let message = output.translate_message(&finding.message);
                 output.write_output_line(format!("{}: {line}{message}", finding.severity))?;
+            }
+            for row in &report.added_tiers {
+                let name = format!("recording:{} {:?}", row.recording, row.name);
+                output.filled_line("added to {recording}: {tiers}", &[&name, &row.tiers.join(", ")])?;
             }
             return print_annotate_report(report, args.ids, output);
         }
@@ -354,7 +369,7 @@ fn paste_annotation_table(
 }
 
 /// Returns the error for an action that needs a recording.
-fn which_recording() -> CorpusError {
+pub(super) fn which_recording() -> CorpusError {
     CorpusError::from_wrong_message("which recording?").with_advice("name it with --in")
 }
 
@@ -471,9 +486,15 @@ fn shift_annotations(
     recording: Option<&RowName>,
     output: &mut CommandOutput,
 ) -> Result<()> {
-    let AnnotateCommand::Shift { by, tiers, dry_run } = &args.action else {
+    let AnnotateCommand::Shift { by, tiers, round } = &args.action else {
         return Ok(());
     };
+    if let Some(scope) = round.named_scope(recording)? {
+        let (tiers, by_us) = (tiers.clone(), *by);
+        let work = TierRoundWork::Shift { tiers, by_us };
+        return tiers_command::run_tier_round(corpus, &scope, &work, round, output);
+    }
+    let dry_run = round.dry_run;
     // A tier by its number belongs to one recording, which needs no name.
     let of_all = tiers.iter().all(|tier| !tier.starts_with("tier:"));
     if recording.is_none() && of_all {
@@ -484,9 +505,9 @@ fn shift_annotations(
         tiers: tiers.clone(),
     };
     let mut bar = CommandProgressBar::new();
-    let report = corpus.shift_tiers(&within, *by, *dry_run, &mut ProgressReceiver::new(&mut bar))?;
+    let report = corpus.shift_tiers(&within, *by, dry_run, &mut ProgressReceiver::new(&mut bar))?;
     drop(bar);
-    if *dry_run {
+    if dry_run {
         output.write_output_line("nothing is written; it would be:")?;
     }
     print_annotate_report(report, args.ids, output)

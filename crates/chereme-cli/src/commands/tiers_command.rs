@@ -3,21 +3,21 @@
 use anyhow::Result;
 use chereme_corpus::words::InterfaceLanguage;
 use chereme_corpus::{
-    AnnotatedHands, CopiedAnnotations, Corpus, CorpusAddress, NewTier, RecordOrigin, RecordingChange, RowName,
-    SignChange, SignerChange, TierPropertyChange, TierRequestName, TierScheme, TierStereotype, TierTopic,
-    TierValueSource,
+    AnnotatedHands, CopiedAnnotations, Corpus, CorpusAddress, CorpusError, NewTier, ProgressReceiver, RecordOrigin,
+    RecordingChange, RowName, SignChange, SignerChange, TierPropertyChange, TierRequestName, TierRoundOptions,
+    TierRoundScope, TierRoundWork, TierScheme, TierStereotype, TierTopic, TierValueSource,
 };
 use chereme_motion::BodySide;
 use clap::{Subcommand, ValueEnum};
 
 use super::annotate;
 use crate::args::BODY_SIDE_CHOICES;
-use crate::output::CommandOutput;
+use crate::output::{CommandOutput, CommandProgressBar};
 use crate::words::tier_roles_help;
 
 #[derive(Debug, Subcommand)]
 pub(super) enum TierCommand {
-    /// Add a tier to the recording named by --in
+    /// Add a tier to the recording named by --in, or to several
     AddTier {
         /// Its name
         name: String,
@@ -37,6 +37,8 @@ pub(super) enum TierCommand {
         inventory: Option<String>,
         #[command(flatten)]
         people: TierPeople,
+        #[command(flatten)]
+        round: TierRoundArgs,
     },
     /// Add the usual tiers to the recording named by --in, or those of another recording
     ///
@@ -47,6 +49,8 @@ pub(super) enum TierCommand {
         /// The recording whose tiers are copied, without their annotations
         #[arg(long, value_name = "RECORDING")]
         like: Option<String>,
+        #[command(flatten)]
+        round: TierRoundArgs,
     },
     /// Change a tier: its name, subject, hand, inventory, people or language
     Tier {
@@ -66,6 +70,8 @@ pub(super) enum TierCommand {
         inventory: Option<String>,
         #[command(flatten)]
         people: TierPeople,
+        #[command(flatten)]
+        round: TierRoundArgs,
     },
     /// Copy a tier under another name
     CopyTier {
@@ -82,11 +88,15 @@ pub(super) enum TierCommand {
         /// Take only annotations whose value contains this text, ignoring case and accents
         #[arg(long, value_name = "TEXT")]
         holding: Option<String>,
+        #[command(flatten)]
+        round: TierRoundArgs,
     },
     /// Remove a tier, the tiers below it, and all their annotations
     RemoveTier {
         /// The tier
         tier: String,
+        #[command(flatten)]
+        round: TierRoundArgs,
     },
     /// Change the recording named by --in: its name, signer or remarks
     Recording {
@@ -160,6 +170,91 @@ pub(super) struct TierPeople {
     language: Option<String>,
 }
 
+/// The recordings of work on tiers, if there are several.
+#[derive(Debug, clap::Args)]
+pub(super) struct TierRoundArgs {
+    /// In all recordings with a token that a query finds, as in `chereme search`
+    #[arg(long = "where", value_name = "QUERY", conflicts_with = "all")]
+    query: Option<String>,
+    /// In all recordings of the corpus
+    #[arg(long)]
+    all: bool,
+    /// Report what would change, and write nothing
+    #[arg(long)]
+    pub(super) dry_run: bool,
+    /// Leave out recordings that refuse the change; without it nothing is done if one of them refuses
+    #[arg(long)]
+    skip: bool,
+}
+
+impl TierRoundArgs {
+    /// Returns the recordings if there may be several; `None` for work in the recording named by `--in`.
+    pub(super) fn named_scope(&self, recording: Option<&RowName>) -> Result<Option<TierRoundScope>> {
+        Ok(match (&self.query, recording) {
+            (Some(_), Some(_)) => return Err(recordings_named_twice().into()),
+            (None, Some(_)) if self.all => return Err(recordings_named_twice().into()),
+            (Some(query), None) => Some(TierRoundScope::Query(query.clone())),
+            (None, None) => self.all.then_some(TierRoundScope::All),
+            (None, Some(RowName::Text(text))) if text.contains('*') || text.starts_with("signer:") => {
+                Some(TierRoundScope::Pattern(text.clone()))
+            }
+            (None, Some(_)) => None,
+        })
+    }
+
+    /// Returns the recordings of work that may be tried or leave out recordings.
+    fn round_scope(&self, recording: Option<&RowName>) -> Result<Option<TierRoundScope>> {
+        let named = self.named_scope(recording)?;
+        if named.is_some() || !(self.dry_run || self.skip) {
+            return Ok(named);
+        }
+        let recording = recording.cloned().ok_or_else(annotate::which_recording)?;
+        Ok(Some(TierRoundScope::Pattern(match recording {
+            RowName::Text(text) => text,
+            number => CorpusAddress::Recording(number).to_string(),
+        })))
+    }
+}
+
+fn recordings_named_twice() -> CorpusError {
+    CorpusError::from_wrong_message("the recordings are named twice").with_advice("give one of --in, --where and --all")
+}
+
+/// Does the same work on the tiers of several recordings, and lists what it did in each.
+pub(super) fn run_tier_round(
+    corpus: &mut Corpus,
+    scope: &TierRoundScope,
+    work: &TierRoundWork,
+    round: &TierRoundArgs,
+    output: &mut CommandOutput,
+) -> Result<()> {
+    let options = TierRoundOptions {
+        dry_run: round.dry_run,
+        skip: round.skip,
+    };
+    let mut bar = CommandProgressBar::new();
+    let report = corpus.work_on_tiers(scope, work, options, &mut ProgressReceiver::new(&mut bar))?;
+    drop(bar);
+    if report.dry_run {
+        output.write_output_line("nothing is written; it would be:")?;
+    }
+    for row in &report.recordings {
+        let name = format!("recording:{} {:?}", row.recording, row.name);
+        match &row.refused {
+            Some(why) => {
+                let why = output.translate_message(why);
+                output.filled_line("{recording} refuses: {why}", &[&name, &why])?;
+            }
+            None => {
+                let count = output.format_counted_noun(row.annotations, "annotations");
+                output.filled_line("{recording}: {tiers} ({n})", &[&name, &row.tiers.join(", "), &count])?;
+            }
+        }
+    }
+    output.line_as_is(&report.round_sentence(output.output_language()))?;
+    output.set_json_document(report)
+}
+
 /// Returns the text; `None` if it is empty or blank.
 fn non_blank_text(text: &Option<String>) -> Option<String> {
     let text = text.as_deref().map(str::trim);
@@ -174,7 +269,7 @@ fn hand_of(topic: Option<&TierTopic>, word: Option<HandWord>) -> Result<Option<O
         (Some(own), Some(asked)) if Some(own) != asked => {
             let other = asked.map_or("none", AnnotatedHands::annotated_hands_name);
             let wrong = format!("--role names the {own} hand, and --hand says {other}");
-            Err(chereme_corpus::CorpusError::from_wrong_message(wrong)
+            Err(CorpusError::from_wrong_message(wrong)
                 .with_advice("name the hand once")
                 .into())
         }
@@ -227,11 +322,7 @@ pub(super) fn run(
     recording: Option<&RowName>,
     output: &mut CommandOutput,
 ) -> Result<()> {
-    let needed = || {
-        recording.cloned().ok_or_else(|| {
-            chereme_corpus::CorpusError::from_wrong_message("which recording?").with_advice("name it with --in")
-        })
-    };
+    let needed = || recording.cloned().ok_or_else(annotate::which_recording);
     match action {
         TierCommand::AddTier {
             name,
@@ -241,8 +332,12 @@ pub(super) fn run(
             stereotype,
             inventory,
             people,
+            round,
         } => {
-            let mut tier = NewTier::new(needed()?, name.clone(), role.role.clone());
+            let scope = round.round_scope(recording)?;
+            // Work on several recordings puts each in its place.
+            let place = scope.as_ref().map_or_else(needed, |_| Ok(RowName::Number(0)))?;
+            let mut tier = NewTier::new(place, name.clone(), role.role.clone());
             // An empty option is the same as none for a new tier.
             tier.hand = hand_of(Some(role), *hand)?.flatten();
             tier.participant = non_blank_text(&people.participant);
@@ -252,15 +347,21 @@ pub(super) fn run(
             if let Some(inventory) = inventory {
                 tier.values = TierValueSource::Inventory(inventory.clone());
             }
+            if let Some(scope) = scope {
+                return run_tier_round(corpus, &scope, &TierRoundWork::Add(tier), round, output);
+            }
             let row = corpus.add_tier(&tier)?;
             output.filled_line("added tier:{id}, {name}", &[&row.id, &format_args!("{:?}", row.name)])?;
             output.set_json_document(row)
         }
-        TierCommand::AddTiers { like } => {
+        TierCommand::AddTiers { like, round } => {
             let scheme = match like {
                 Some(other) => TierScheme::Like(annotate::parse_annotated_recording(other)?),
                 None => TierScheme::Usual,
             };
+            if let Some(scope) = round.round_scope(recording)? {
+                return run_tier_round(corpus, &scope, &TierRoundWork::AddScheme(scheme), round, output);
+            }
             let rows = corpus.add_tiers(&needed()?, &scheme)?;
             for row in &rows {
                 output.filled_line("added tier:{id}, {name}", &[&row.id, &format_args!("{:?}", row.name)])?;
@@ -274,6 +375,7 @@ pub(super) fn run(
             hand,
             inventory,
             people,
+            round,
         } => {
             let change = TierPropertyChange {
                 name: name.clone(),
@@ -286,6 +388,10 @@ pub(super) fn run(
                 language: people.language.clone().map(Some),
                 ..TierPropertyChange::default()
             };
+            if let Some(scope) = round.round_scope(recording)? {
+                let tier = tier.clone();
+                return run_tier_round(corpus, &scope, &TierRoundWork::Change { tier, change }, round, output);
+            }
             let row = corpus.change_tier_properties(&TierRequestName::parse_tier_name(tier, recording)?, &change)?;
             output.filled_line("changed tier:{id}, {name}", &[&row.id, &format_args!("{:?}", row.name)])?;
             output.set_json_document(row)
@@ -296,6 +402,7 @@ pub(super) fn run(
             blank,
             bare,
             holding,
+            round,
         } => {
             let copied = match (blank, bare, holding) {
                 (_, _, Some(text)) => CopiedAnnotations::Holding(text.clone()),
@@ -303,11 +410,23 @@ pub(super) fn run(
                 (_, true, _) => CopiedAnnotations::Nothing,
                 _ => CopiedAnnotations::All,
             };
+            if let Some(scope) = round.round_scope(recording)? {
+                let work = TierRoundWork::Copy {
+                    tier: tier.clone(),
+                    name: name.clone(),
+                    copied,
+                };
+                return run_tier_round(corpus, &scope, &work, round, output);
+            }
             let row = corpus.copy_tier(&TierRequestName::parse_tier_name(tier, recording)?, name, &copied)?;
             output.filled_line("added tier:{id}, {name}", &[&row.id, &format_args!("{:?}", row.name)])?;
             output.set_json_document(row)
         }
-        TierCommand::RemoveTier { tier } => {
+        TierCommand::RemoveTier { tier, round } => {
+            if let Some(scope) = round.round_scope(recording)? {
+                let tier = tier.clone();
+                return run_tier_round(corpus, &scope, &TierRoundWork::Remove { tier }, round, output);
+            }
             let removed = corpus.remove_tier(&TierRequestName::parse_tier_name(tier, recording)?)?;
             let (names, count) = (removed.tiers.join(", "), removed.annotations);
             let count = output.format_counted_noun(count, "annotations");

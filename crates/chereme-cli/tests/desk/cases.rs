@@ -375,6 +375,13 @@ pub(crate) const CASES: &[Case] = &[
     ("annotate @c --in bowl add-tiers --like nobody", 1, ERROR),
     ("annotate @c add-tiers", 1, ERROR),
     (
+        "annotate @c add-tier Mouth-9 --all --dry-run",
+        0,
+        &["/deed", "/dry_run", "/recordings/0/tiers", "/untouched"],
+    ),
+    ("annotate @c remove-tier Nothing-9 --all", 1, ERROR),
+    ("annotate @c --in bowl remove-tier Gloss --all", 1, ERROR),
+    (
         "recombine @c 'BOL | reverse' --as LOB",
         0,
         &["/recipe", "/gloss", "/token", "/recording", "/report"],

@@ -1,12 +1,19 @@
 //! Changes of annotations from a table.
 
+use std::collections::{BTreeMap, BTreeSet};
+
+use chereme_formats::roles::{self, TierMapping, TierRoleEvidence};
 use chereme_formats::table::TableError;
 use chereme_formats::table::annotations::{self, ChangeAction, ChangeRow, ChangeRowFault};
-use chereme_sign::ErrorRemedy;
+use chereme_sign::{ErrorRemedy, TierTopic};
+use rusqlite::Connection;
 
-use super::{AnnotateOptions, AnnotateReport, AnnotationAction, AnnotationChange, AnnotationName, TierRequestName};
+use super::{
+    AnnotateOptions, AnnotateReport, AnnotationAction, AnnotationChange, AnnotationName, NewTier, TierRequestName,
+    TierRoundRow, TierValueSource, annotate_names, tier_rounds,
+};
 use crate::Corpus;
-use crate::address::{CorpusAddress, RowName};
+use crate::address::{self, CorpusAddress, RowName};
 use crate::db::stored_recordings;
 use crate::error::{CorpusError, CorpusResult};
 use crate::progress::ProgressReceiver;
@@ -16,7 +23,7 @@ impl Corpus {
     /// Applies the changes in a table (CSV or TSV) of annotations, as one operation.
     ///
     /// `name` is the name of the table in errors. Rows without a recording apply to `recording`, or to the only one of
-    /// the corpus. An annotation named by its id must be in the recording and on the tier that its row names. The format
+    /// the corpus. With [`AnnotateOptions::add_tiers`] recordings get the tiers that they lack, too. An annotation named by its id must be in the recording and on the tier that its row names. The format
     /// is that of [`chereme_formats::table::annotations::read_change_table`].
     ///
     /// # Errors
@@ -62,7 +69,11 @@ impl Corpus {
                 .with_error_place(name)
                 .with_advice("write a row for each change below the row of column names"));
         }
-        let report = match self.annotate_all(&changes, options, faults, progress) {
+        let (new, added_tiers) = match options.add_tiers {
+            true => plan_lacking_tiers(self.store.read_connection(), &changes)?,
+            false => Default::default(),
+        };
+        let report = match self.annotate_all(&new, &changes, options, faults, progress) {
             Err(error @ (CorpusError::Wrong { .. } | CorpusError::Follows(_))) => {
                 return Err(CorpusError::Several { errors: vec![error] });
             }
@@ -79,8 +90,73 @@ impl Corpus {
             }
             other => other?,
         };
+        let report = AnnotateReport { added_tiers, ..report };
         Ok((report, findings.into_iter().map(ReportFinding::from).collect()))
     }
+}
+
+/// Returns the tiers to which changes add annotations and which their recordings lack, and their names by recording.
+///
+/// The name of a tier says what its annotations are about. A recording that does not exist is left to its change.
+fn plan_lacking_tiers(
+    connection: &Connection,
+    changes: &[AnnotationChange],
+) -> CorpusResult<(Vec<NewTier>, Vec<TierRoundRow>)> {
+    let mut lacking: BTreeMap<i64, TierRoundRow> = BTreeMap::new();
+    let mut seen = BTreeSet::new();
+    for change in changes {
+        let AnnotationAction::Add { tier: name, .. } = &change.action else {
+            continue;
+        };
+        let TierRequestName::Of { recording, tier } = name else {
+            continue;
+        };
+        if tier.is_empty() || !seen.insert(name.to_string()) {
+            continue;
+        }
+        let Ok(home) = address::find_recording_by_name(connection, recording) else {
+            continue;
+        };
+        if annotate_names::find_named_tier(connection, name).is_err() {
+            let row = lacking
+                .entry(home.id)
+                .or_insert_with(|| tier_rounds::empty_round_row(&home));
+            // Another row may name the recording by its number.
+            if !row.tiers.contains(tier) {
+                row.tiers.push(tier.clone());
+            }
+        }
+    }
+    let names: BTreeSet<&str> = lacking
+        .values()
+        .flat_map(|row| &row.tiers)
+        .map(String::as_str)
+        .collect();
+    let evidence: Vec<TierRoleEvidence<'_>> = names
+        .into_iter()
+        .map(|name| TierRoleEvidence {
+            name,
+            ..TierRoleEvidence::default()
+        })
+        .collect();
+    let topics: BTreeMap<String, TierTopic> = roles::guess_roles(&evidence, &TierMapping::default())
+        .into_iter()
+        .filter_map(|guess| Some((guess.tier.clone(), guess.guessed_tier_topic()?)))
+        .collect();
+    let mut new = Vec::new();
+    for row in lacking.values() {
+        for name in &row.tiers {
+            let topic = topics.get(name).cloned().unwrap_or_default();
+            let recording = RowName::Number(row.recording);
+            new.push(NewTier {
+                hand: topic.hand,
+                // The values of the table are taken as they are.
+                values: TierValueSource::Free,
+                ..NewTier::new(recording, name.clone(), topic.role)
+            });
+        }
+    }
+    Ok((new, lacking.into_values().collect()))
 }
 
 fn error_line_number(error: &CorpusError) -> Option<u64> {

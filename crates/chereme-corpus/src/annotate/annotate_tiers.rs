@@ -138,24 +138,8 @@ impl Corpus {
     ) -> CorpusResult<TierRow> {
         self.store.run_store_operation(|connection| {
             let old = annotate_names::find_named_tier(connection, tier)?;
-            let inventories = inventories::load_all_inventories(connection)?;
-            let mut row = changed_row(connection, &old, change, &inventories)?;
-            if let Some(parent) = &change.parent {
-                row = arrange::hang_tier_below(connection, &row, parent.as_ref())?;
-            }
-            let recording = old.recording_id;
-            if row.participant != old.participant {
-                ensure_participant_signer(connection, row.participant.as_deref())?;
-            }
-            if row != old {
-                rows::update_tier(connection, &row)?;
-                tokens::update_recording_tokens(connection, recording, None, &inventories)?;
-            }
-            if let Some(place) = change.place {
-                arrange::move_tier_to_place(connection, &row, place)?;
-                row = rows::load_tier_row(connection, row.id)?;
-            }
-            let recording = stored_recordings::load_recording_row(connection, recording)?.name;
+            let row = change_tier_row(connection, &old, change)?;
+            let recording = stored_recordings::load_recording_row(connection, row.recording_id)?.name;
             let tier = row.name.clone();
             Ok((row, OperationEffect::ChangeTier { tier, recording }))
         })
@@ -167,20 +151,8 @@ impl Corpus {
     /// Fails if the tier does not exist.
     pub fn remove_tier(&mut self, tier: &TierRequestName) -> CorpusResult<RemovedTiers> {
         self.store.run_store_operation(|connection| {
-            edits::defer_references(connection)?;
             let tier = annotate_names::find_named_tier(connection, tier)?;
-            let all = rows::load_tier_rows(connection, tier.recording_id)?;
-            let mut removed = RemovedTiers {
-                tiers: Vec::new(),
-                annotations: 0,
-            };
-            for row in tier_with_descendants(&all, &tier).into_iter().rev() {
-                removed.annotations += edits::delete_annotations(connection, row.id)? as u64;
-                rows::delete_tier(connection, row.id)?;
-                removed.tiers.insert(0, row.name.clone());
-            }
-            let inventories = inventories::load_of(connection, tier.recording_id)?;
-            tokens::update_recording_tokens(connection, tier.recording_id, None, &inventories)?;
+            let removed = remove_tier_row(connection, &tier)?;
             let recording = stored_recordings::load_recording_row(connection, tier.recording_id)?.name;
             let effect = OperationEffect::RemoveTier {
                 tiers: removed.tiers.clone(),
@@ -190,6 +162,49 @@ impl Corpus {
             Ok((removed, effect))
         })
     }
+}
+
+/// Gives a tier other properties; returns its new row.
+pub(super) fn change_tier_row(
+    connection: &Connection,
+    old: &TierRow,
+    change: &TierPropertyChange,
+) -> CorpusResult<TierRow> {
+    let inventories = inventories::load_all_inventories(connection)?;
+    let mut row = changed_row(connection, old, change, &inventories)?;
+    if let Some(parent) = &change.parent {
+        row = arrange::hang_tier_below(connection, &row, parent.as_ref())?;
+    }
+    if row.participant != old.participant {
+        ensure_participant_signer(connection, row.participant.as_deref())?;
+    }
+    if row != *old {
+        rows::update_tier(connection, &row)?;
+        tokens::update_recording_tokens(connection, old.recording_id, None, &inventories)?;
+    }
+    if let Some(place) = change.place {
+        arrange::move_tier_to_place(connection, &row, place)?;
+        row = rows::load_tier_row(connection, row.id)?;
+    }
+    Ok(row)
+}
+
+/// Removes a tier, those below it, and their annotations.
+pub(super) fn remove_tier_row(connection: &Connection, tier: &TierRow) -> CorpusResult<RemovedTiers> {
+    edits::defer_references(connection)?;
+    let all = rows::load_tier_rows(connection, tier.recording_id)?;
+    let mut removed = RemovedTiers {
+        tiers: Vec::new(),
+        annotations: 0,
+    };
+    for row in tier_with_descendants(&all, tier).into_iter().rev() {
+        removed.annotations += edits::delete_annotations(connection, row.id)? as u64;
+        rows::delete_tier(connection, row.id)?;
+        removed.tiers.insert(0, row.name.clone());
+    }
+    let inventories = inventories::load_of(connection, tier.recording_id)?;
+    tokens::update_recording_tokens(connection, tier.recording_id, None, &inventories)?;
+    Ok(removed)
 }
 
 /// Adds a participant of a tier to the signers of the corpus, if no signer has that name.

@@ -44,40 +44,15 @@ impl Corpus {
     ) -> CorpusResult<TierRow> {
         self.store.run_store_operation(|connection| {
             let from = annotate_names::find_named_tier(connection, tier)?;
-            let row = TierRow {
-                id: 0,
-                name: name.trim().to_owned(),
-                source: None,
-                ..from.clone()
-            };
-            let all = rows::load_tier_rows(connection, from.recording_id)?;
-            check_name(&all, &row)?;
-            let id = rows::insert_tier(connection, &row)?;
-            let annotations = rows::load_tier_annotation_rows(connection, from.id)?;
-            let mut count = 0_u64;
-            for annotation in annotations {
-                if let Some(copy) = copy_annotation_row(annotation, &row, copied) {
-                    rows::insert_annotation(connection, &AnnotationRow { tier_id: id, ..copy })?;
-                    count += 1;
-                }
-            }
-            let place = all
-                .iter()
-                .position(|row| row.id == from.id)
-                .map_or(0, |index| index + 1);
-            let mut order: Vec<i64> = all.iter().map(|row| row.id).collect();
-            order.insert(place, id);
-            put_in_order(connection, from.recording_id, &order)?;
-            let inventories = inventories::load_of(connection, from.recording_id)?;
-            tokens::update_recording_tokens(connection, from.recording_id, None, &inventories)?;
+            let (row, count) = copy_tier_row(connection, &from, name, copied)?;
             let recording = crate::db::stored_recordings::load_recording_row(connection, from.recording_id)?.name;
             let effect = OperationEffect::CopyTier {
                 tier: from.name,
                 recording,
-                copy: row.name,
+                copy: row.name.clone(),
                 annotations: count,
             };
-            Ok((rows::load_tier_row(connection, id)?, effect))
+            Ok((row, effect))
         })
     }
 
@@ -94,6 +69,42 @@ impl Corpus {
             Ok(((), OperationEffect::OrderTiers { recording }))
         })
     }
+}
+
+/// Copies a tier; returns the copy and how many annotations it has.
+pub(super) fn copy_tier_row(
+    connection: &Connection,
+    from: &TierRow,
+    name: &str,
+    copied: &CopiedAnnotations,
+) -> CorpusResult<(TierRow, u64)> {
+    let row = TierRow {
+        id: 0,
+        name: name.trim().to_owned(),
+        source: None,
+        ..from.clone()
+    };
+    let all = rows::load_tier_rows(connection, from.recording_id)?;
+    check_name(&all, &row)?;
+    let id = rows::insert_tier(connection, &row)?;
+    let annotations = rows::load_tier_annotation_rows(connection, from.id)?;
+    let mut count = 0_u64;
+    for annotation in annotations {
+        if let Some(copy) = copy_annotation_row(annotation, &row, copied) {
+            rows::insert_annotation(connection, &AnnotationRow { tier_id: id, ..copy })?;
+            count += 1;
+        }
+    }
+    let place = all
+        .iter()
+        .position(|row| row.id == from.id)
+        .map_or(0, |index| index + 1);
+    let mut order: Vec<i64> = all.iter().map(|row| row.id).collect();
+    order.insert(place, id);
+    put_in_order(connection, from.recording_id, &order)?;
+    let inventories = inventories::load_of(connection, from.recording_id)?;
+    tokens::update_recording_tokens(connection, from.recording_id, None, &inventories)?;
+    Ok((rows::load_tier_row(connection, id)?, count))
 }
 
 /// Returns the copy of an annotation on a copied tier.

@@ -24,6 +24,7 @@ pub mod snap;
 mod testing;
 #[cfg(test)]
 mod tests;
+mod tier_rounds;
 pub mod tier_values;
 
 use std::collections::BTreeMap;
@@ -41,6 +42,7 @@ pub use annotate_tiers::{NewTier, RemovedTiers, TierPropertyChange, TierValueSou
 pub use copies::CopiedAnnotations;
 pub use replace::{ReplacedValue, ReplacementReport, TierSelection, ValueSearch};
 pub use scheme::TierScheme;
+pub use tier_rounds::{TierRoundOptions, TierRoundReport, TierRoundRow, TierRoundScope, TierRoundWork};
 
 use crate::Corpus;
 use crate::address::message_names::FIRST_FRESH_HANDLE;
@@ -154,6 +156,8 @@ pub struct AnnotateOptions {
     pub mode: NeighbourMode,
     /// The unit of bare numbers in a table whose titles name no unit; seconds by default.
     pub unit: Option<TableTimeUnit>,
+    /// Whether tiers are added to which a table adds annotations and which its recordings lack.
+    pub add_tiers: bool,
 }
 
 /// The result of a list of changes.
@@ -174,6 +178,9 @@ pub struct AnnotateReport {
     /// What was changed, as in the history.
     #[serde(skip)]
     pub effect: AnnotationEffect,
+    /// The tiers that were added for the annotations, by recording.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub added_tiers: Vec<TierRoundRow>,
 }
 
 impl Corpus {
@@ -191,17 +198,21 @@ impl Corpus {
         options: &AnnotateOptions,
         progress: &mut ProgressReceiver<'_>,
     ) -> CorpusResult<AnnotateReport> {
-        self.annotate_all(changes, options, Vec::new(), progress)
+        self.annotate_all(&[], changes, options, Vec::new(), progress)
     }
 
     fn annotate_all(
         &mut self,
+        new: &[NewTier],
         changes: &[AnnotationChange],
         options: &AnnotateOptions,
         faults: Vec<CorpusError>,
         progress: &mut ProgressReceiver<'_>,
     ) -> CorpusResult<AnnotateReport> {
         let work = |connection: &Connection, progress: &mut ProgressReceiver<'_>| {
+            for tier in new {
+                annotate_tiers::insert_new_tier(connection, tier)?;
+            }
             let report = carry_out_changes(connection, changes, options, faults, progress)?;
             let effect = OperationEffect::Annotate(report.effect.clone());
             Ok((report, effect))

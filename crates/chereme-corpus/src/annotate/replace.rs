@@ -208,25 +208,7 @@ impl Corpus {
     ) -> CorpusResult<AnnotateReport> {
         let connection = self.store.read_connection();
         let chosen = tiers_within(connection, within)?;
-        let ids: Vec<i64> = chosen.iter().map(|(_, tier)| tier.id).collect();
-        let mut changes = Vec::new();
-        for (recording, tier) in &chosen {
-            // Annotations below others move with them, and must not move twice.
-            let goes_along = tier.parent_id.is_some_and(|above| ids.contains(&above));
-            if goes_along || (within.tiers.is_empty() && tier.parent_id.is_some()) {
-                continue;
-            }
-            let old: Vec<SpanItem> = rows::load_tier_annotation_rows(connection, tier.id)?
-                .iter()
-                .map(|row| annotation_item(row.id, span_of(row)))
-                .collect();
-            let new: Vec<SpanItem> = old.iter().map(|item| shift_item_by(*item, by_us)).collect();
-            check_shift_range(connection, recording, tier, &new, by_us)?;
-            // Each annotation moves into room that the one before it has left.
-            for item in tier_spans::order_span_changes(&old, &new) {
-                changes.push(shifted_times_change(recording, tier, item));
-            }
-        }
+        let changes = plan_tier_shift(connection, &chosen, within.tiers.is_empty(), by_us)?;
         match changes.is_empty() {
             true => Ok(AnnotateReport::default()),
             false => self.annotate_or_try(&changes, dry_run, progress),
@@ -261,6 +243,33 @@ impl Corpus {
             (Ok(()), None) => Ok(AnnotateReport::default()),
         }
     }
+}
+
+/// Returns the changes that move tiers in time; of a whole recording those of its root tiers, which the others follow.
+pub(super) fn plan_tier_shift(
+    connection: &Connection,
+    chosen: &[(RecordingRow, TierRow)],
+    is_whole: bool,
+    by_us: i64,
+) -> CorpusResult<Vec<AnnotationChange>> {
+    let ids: Vec<i64> = chosen.iter().map(|(_, tier)| tier.id).collect();
+    let mut changes = Vec::new();
+    for (recording, tier) in chosen {
+        let goes_along = tier.parent_id.is_some_and(|above| ids.contains(&above));
+        if goes_along || (is_whole && tier.parent_id.is_some()) {
+            continue;
+        }
+        let old: Vec<SpanItem> = rows::load_tier_annotation_rows(connection, tier.id)?
+            .iter()
+            .map(|row| annotation_item(row.id, span_of(row)))
+            .collect();
+        let new: Vec<SpanItem> = old.iter().map(|item| shift_item_by(*item, by_us)).collect();
+        check_shift_range(connection, recording, tier, &new, by_us)?;
+        for item in tier_spans::order_span_changes(&old, &new) {
+            changes.push(shifted_times_change(recording, tier, item));
+        }
+    }
+    Ok(changes)
 }
 
 fn replacement_change(value: &ReplacedValue) -> AnnotationChange {
@@ -348,7 +357,7 @@ fn tiers_within(connection: &Connection, within: &TierSelection) -> CorpusResult
         for tier in rows::load_tier_rows(connection, recording.id)? {
             let mut wanted = within.tiers.is_empty();
             for (text, used) in within.tiers.iter().zip(&mut used) {
-                if is_meant(text, &tier) {
+                if tier.is_meant_by(text) {
                     (wanted, *used) = (true, true);
                 }
             }
@@ -380,12 +389,19 @@ fn no_tier(text: &str) -> CorpusError {
         .with_advice(ErrorRemedy::command_remedy("`chereme list CORPUS tiers` lists them"))
 }
 
-/// Returns whether a tier has that name or number; `*` matches any letters.
-fn is_meant(text: &str, tier: &TierRow) -> bool {
-    if let Ok(crate::CorpusAddress::Tier(id)) = text.parse() {
-        return id == tier.id;
+impl TierRow {
+    /// Returns whether the tier has that name or number; `*` matches any letters.
+    pub(super) fn is_meant_by(&self, text: &str) -> bool {
+        match text.parse() {
+            Ok(crate::CorpusAddress::Tier(id)) => id == self.id,
+            _ => is_meant(text, &self.name),
+        }
     }
-    let name = fold_text(&tier.name);
+}
+
+/// Returns whether a name is that text, ignoring case and accents; `*` matches any letters.
+pub(super) fn is_meant(text: &str, name: &str) -> bool {
+    let name = fold_text(name);
     let wanted = fold_text(text.trim());
     let mut parts = wanted.split('*');
     let first = parts.next().unwrap_or_default();

@@ -56,23 +56,39 @@ impl Corpus {
     pub fn add_tiers(&mut self, recording: &RowName, scheme: &TierScheme) -> CorpusResult<Vec<TierRow>> {
         self.store.run_store_operation(|connection| {
             let recording = address::find_recording_by_name(connection, recording)?;
-            let wanted = match scheme {
-                TierScheme::Usual => plan_default_tiers(connection, &recording)?,
-                TierScheme::Like(other) => plan_tiers_like(
-                    connection,
-                    &address::find_recording_by_name(connection, other)?,
-                    &recording,
-                )?,
-                TierScheme::Below(tier) => {
-                    plan_component_tiers(connection, &annotate_names::find_named_tier(connection, tier)?)?
-                }
-            };
-            let below = matches!(scheme, TierScheme::Below(_));
-            let added = add_planned_tiers(connection, &recording, wanted, below)?;
+            let added = add_lacking_tiers(connection, &recording, scheme)?;
+            if added.is_empty() {
+                return Err(CorpusError::from_wrong_message(format!(
+                    "the recording {:?} has all of these tiers already",
+                    recording.name
+                ))
+                .with_advice("add single tiers, or copy those of another recording"));
+            }
             let (count, recording) = (added.len() as u64, recording.name);
             Ok((added, OperationEffect::AddTiers { count, recording }))
         })
     }
+}
+
+/// Adds the tiers of a scheme that a recording lacks, and returns them.
+pub(super) fn add_lacking_tiers(
+    connection: &Connection,
+    recording: &RecordingRow,
+    scheme: &TierScheme,
+) -> CorpusResult<Vec<TierRow>> {
+    let wanted = match scheme {
+        TierScheme::Usual => plan_default_tiers(connection, recording)?,
+        TierScheme::Like(other) => plan_tiers_like(
+            connection,
+            &address::find_recording_by_name(connection, other)?,
+            recording,
+        )?,
+        TierScheme::Below(tier) => {
+            plan_component_tiers(connection, &annotate_names::find_named_tier(connection, tier)?)?
+        }
+    };
+    let below = matches!(scheme, TierScheme::Below(_));
+    add_planned_tiers(connection, recording, wanted, below)
 }
 
 /// A tier to be added, and the row of the tier that it copies, if there is one.
@@ -109,13 +125,6 @@ fn add_planned_tiers(
         }
         row.id = rows::insert_tier(connection, &row)?;
         added.push(row);
-    }
-    if added.is_empty() {
-        return Err(CorpusError::from_wrong_message(format!(
-            "the recording {:?} has all of these tiers already",
-            recording.name
-        ))
-        .with_advice("add single tiers, or copy those of another recording"));
     }
     Ok(added)
 }

@@ -8,6 +8,7 @@ mod replace;
 mod scheme;
 mod summaries;
 mod tables;
+mod tier_rounds;
 mod tiers;
 
 use chereme_formats::table::annotations::TableMoment;

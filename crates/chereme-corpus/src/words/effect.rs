@@ -17,6 +17,18 @@ pub enum ConflictDecision {
     Both,
 }
 
+/// What was done with the tiers of several recordings.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[expect(missing_docs, reason = "each is a word of the deed")]
+pub enum TierRoundDeed {
+    Added,
+    Changed,
+    Copied,
+    Removed,
+    Shifted,
+}
+
 /// What an operation did. It is stored as JSON, whose `does` is the name of the operation with hyphens for its spaces.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(tag = "does", rename_all = "kebab-case")]
@@ -63,6 +75,12 @@ pub enum OperationEffect {
         recording: String,
         copy: String,
         annotations: u64,
+    },
+    /// Tiers of several recordings were worked on: what was done with how many of them.
+    WorkOnTiers {
+        deed: TierRoundDeed,
+        tiers: u64,
+        recordings: u64,
     },
     /// The tiers of a recording were put in order.
     OrderTiers { recording: String },
@@ -301,6 +319,7 @@ impl OperationEffect {
             Self::RemoveTier { .. } => "{tiers} with {annotations} from {recording}",
             Self::AddTiers { .. } => "{count} to {recording}",
             Self::CopyTier { .. } => "{quoted tier} of {recording} as {quoted copy} with {annotations}",
+            Self::WorkOnTiers { .. } => "{tiers} tiers {deed} in {recordings} recordings",
             Self::OrderTiers { .. } | Self::ChangeRecording { .. } | Self::ChangeMedia { .. } => "{recording}",
             Self::AddValue { .. } => "{value} to {inventory}",
             Self::MergeValues { .. } => "{value} into {into} in {inventory}",

@@ -47,3 +47,35 @@ fn an_annotation_named_by_its_id_must_be_where_its_row_says() {
     }
     assert_eq!(shown(&corpus), "G 1 0-100 D; H 2 0-100 CHAT");
 }
+
+#[test]
+fn a_table_may_add_the_tiers_that_it_needs_in_the_same_step() {
+    let (_folder, mut corpus) = corpus();
+    let before = rows(corpus.store.read_connection());
+    let table = "recording,tier,start,end,value\nTake 1,Mouth,0,1,a\nrecording:1,Mouth,1,2,b\nTake 1,g,0,1,BOL\n";
+    let mut hear = ignore_progress_step;
+    let mut progress = ProgressReceiver::new(&mut hear);
+    let mut write = |corpus: &mut Corpus, add_tiers| {
+        let options = AnnotateOptions {
+            add_tiers,
+            ..AnnotateOptions::default()
+        };
+        corpus.annotate_table(table.as_bytes(), "t.csv", None, &options, &mut progress)
+    };
+    let error = write(&mut corpus, false).expect_err("no such tier");
+    assert!(error.to_string().contains("has no tier \"Mouth\""), "{error}");
+    assert_eq!(rows(corpus.store.read_connection()), before);
+    let (report, _) = write(&mut corpus, true).expect("written");
+    let added: Vec<_> = report
+        .added_tiers
+        .iter()
+        .map(|row| (row.recording, row.tiers.clone()))
+        .collect();
+    assert_eq!((report.added, added), (3, vec![(1, vec!["Mouth".to_owned()])]));
+    let name = RowName::Number(1);
+    let name = TierRequestName::parse_tier_name("Mouth", Some(&name)).expect("a name");
+    let tier = annotate_names::find_named_tier(corpus.store.read_connection(), &name).expect("a tier");
+    assert_eq!(tier.tier_topic().to_string(), "nonmanual.mouth");
+    corpus.undo_operation().expect("undone");
+    assert_eq!(rows(corpus.store.read_connection()), before);
+}

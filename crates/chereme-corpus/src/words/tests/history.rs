@@ -1,6 +1,6 @@
 use std::collections::BTreeSet;
 
-use super::super::effect::{TrackEffect, ValuedThing};
+use super::super::effect::{TierRoundDeed, TrackEffect, ValuedThing};
 use super::super::old_effect::effect_of_summary;
 use super::*;
 use crate::{ChangeKind, ChangedRow, ConflictDecision, FieldChange, change_sentence};
@@ -93,6 +93,11 @@ fn all_effects() -> Vec<OperationEffect> {
             recording: recording.clone(),
             copy: text("copy"),
             annotations: 2,
+        },
+        Effect::WorkOnTiers {
+            deed: TierRoundDeed::Shifted,
+            tiers: 3,
+            recordings: 2,
         },
         Effect::OrderTiers {
             recording: recording.clone(),
