@@ -198,7 +198,7 @@ fn understood_notation(text: &str) -> CorpusResult<(String, Vec<NotationFinding>
     let Some(error) = whole else {
         return Ok((text.to_owned(), findings));
     };
-    // The understood part is written anew, since the text as it stands cannot be read by the recipe either.
+    // The understood part is written again, since the text as it stands cannot be read by the recipe either.
     let printed_text = hamnosys::print_hamnosys(&unspelled(&read.sign)?).text;
     if printed_text.is_empty() || hamnosys::parse_hamnosys(&printed_text).is_err() {
         return Err(CorpusError::from_wrong_message(error.to_string())

@@ -376,7 +376,7 @@ impl<'a> ExaminedTake<'a> {
         let track = MotionTrack::open_motion_track(connection, row.id)?;
         let anatomy = track.track_anatomy(connection)?;
         let all = track.motion_frame_count();
-        // Made movement has no trouble of a capture at its ends, such as a pose for calibration.
+        // Generated movement has no trouble of a capture at its ends, such as a pose for calibration.
         let sound = match row.origin {
             RecordOrigin::Made => 0..all,
             _ => OddFrames::remaining_frames(all, &track.odd_frames(connection, &anatomy)?),

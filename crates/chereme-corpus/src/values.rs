@@ -62,7 +62,7 @@ impl Corpus {
             };
             let mut changed_inventory = stored.inventory;
             changed_inventory.values.push(value);
-            // Two values that share a spelling could not be told apart in annotations.
+            // Two values that share a spelling could not be distinguished in annotations.
             changed_inventory.check_inventory().map_err(|error| {
                 CorpusError::from_wrong_message(error.to_string())
                     .with_advice("give the value spellings that no other one has")

@@ -178,7 +178,7 @@ impl ClipEnds {
             sound: 0..path.len(),
             odd: Vec::new(),
         };
-        // So few frames have no ends that could be told from the movement.
+        // So few frames have no ends that could be distinguished from the movement.
         if path.len() < 4 {
             return ends;
         }
@@ -316,7 +316,7 @@ pub fn activity_frames(clip: &Clip, anatomy: &BodyAnatomy) -> Option<Range<usize
             }
         })
     };
-    // Without an arm nothing tells rest from movement.
+    // Without an arm nothing distinguishes rest from movement.
     if poses.iter().all(|look| look.low.iter().all(Option::is_none)) {
         return None;
     }

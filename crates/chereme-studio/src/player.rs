@@ -322,7 +322,7 @@ impl StagePlayer {
             // What it ran over goes on from the other end, so that a loop keeps its rhythm.
             self.at = start + (self.at - start).rem_euclid((end - start).max(1.0));
         } else {
-            // Played out: the next press starts anew.
+            // Played out: the next press starts again.
             self.at = self.clamped(if self.direction > 0.0 { end } else { start });
             self.stop_playback();
         }

@@ -121,7 +121,7 @@ pub fn cut_take(clip: &Clip, anatomy: &BodyAnatomy, options: CutOptions) -> Resu
     let rest = RestHeights::measure_rest(wrists);
     let activities = peel_activities(wrists, rest);
     if activities.is_empty() {
-        // The two remedies differ, so that a still take is told from a low one.
+        // The two remedies differ, so that a still take is distinguished from a low one.
         let way = |hand: &WristCurve<'_>| hand.speed.iter().sum::<f64>() / CURVE_RATE;
         return Err(match wrists.iter().map(way).fold(0.0, f64::max) < LEAST_WAY {
             true => UncutReason::NoMovement,

@@ -29,7 +29,7 @@ pub(super) fn swivel_arm_steps(steps: &mut [ArmStep], frame_time: f64) {
             step.carry = DQuat::from_axis_angle(shoulder_wrist_direction(step.is), change) * step.carry;
         }
     }
-    // Measured anew, because elbows ride on the changed swivels of their arms.
+    // Measured again, because elbows ride on the changed swivels of their arms.
     let was = swivels(
         steps
             .iter()

@@ -66,7 +66,7 @@ pub(crate) fn restore_contacts(
     order.retain(|side| sides.contains(side));
     let mut did = Vec::new();
     for side in order {
-        // Anew for each hand, because the first one may have moved.
+        // Again for each hand, because the first one may have moved.
         let tracks = anchors.follow_anchored_points(work);
         let mut shifts: Vec<Option<DVec3>> = vec![None; work.frames];
         for contact in found.iter_mut().filter(|contact| wanted(contact)) {

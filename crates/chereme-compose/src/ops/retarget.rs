@@ -433,7 +433,7 @@ fn retarget_thumb(work: &WorkingClip, out: &mut WorkingClip, side: BodySide) {
         let Some(parent) = out.skeleton.joint_parent(to.joint) else {
             continue;
         };
-        // Anew for each bone, because the bone before it has turned.
+        // Again for each bone, because the bone before it has turned.
         let here = JointColumns::joint_columns_of(out, [parent]);
         for frame in 0..work.frames {
             let wanted = from.digit_bone_direction(work, frame);

@@ -95,7 +95,7 @@ impl TierValues {
     pub fn matching_value_indices(&self, text: &str) -> Vec<usize> {
         let wanted = fold_text(text.trim());
         let rank = |choice: &TierValue| {
-            // Case tells some values apart, so the text as typed goes before the folded one.
+            // Case distinguishes some values, so the text as typed goes before the folded one.
             let exact = choice.value == text.trim();
             let ranks = choice.known.iter().filter_map(|known| {
                 if exact || *known == wanted {

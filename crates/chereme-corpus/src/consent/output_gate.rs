@@ -86,7 +86,7 @@ pub(crate) struct OutputGate {
 impl OutputGate {
     /// Opens the gate for an audience.
     pub(crate) fn open_output_gate(connection: &Connection, audience: OutputAudience) -> CorpusResult<Self> {
-        // For those who keep the corpus, the gate only tells what others may not see.
+        // For those who keep the corpus, the gate only says what others may not see.
         let consent_audience = audience.consent_audience().unwrap_or(ConsentAudience::Public);
         // Exports may lack terms, and say so; only a publication needs them.
         let terms = Some(TERMS_NOT_STATED);

@@ -484,7 +484,7 @@ pub(super) fn load_take_keys(
                 .copied()
                 .take_while(|start| *start < row.end_us)
                 .collect();
-            // The number of phones within a key tells its sounds: two are a consonant and a vowel.
+            // The number of phones within a key says its sounds: two are a consonant and a vowel.
             let (kind, a2) = match within.as_slice() {
                 [_, vowel, ..] => (KeySounds::Pair, *vowel),
                 // A single vowel at the placement of consonants is ambiguous; at another placement it is a vowel.

@@ -217,7 +217,7 @@ impl CapturedFace {
         let (first, second, share) = self.place_of(moment);
         let (a, b) = (places.get(first)?, places.get(second)?);
         let usual = self.usual_place?;
-        // Only what differs from the usual place is leaning; the height of the head tells nothing about it.
+        // Only what differs from the usual place is leaning; the height of the head says nothing about it.
         let [left, _, forward] = std::array::from_fn(|n| a[n] + (b[n] - a[n]) * share - usual[n]);
         // A place far off, such as that of a person who steps aside, must not bend the trunk past 45 degrees.
         let turn = |away: f64| (away / HEAD_ABOVE_HIPS_M).clamp(-0.7, 0.7).asin();

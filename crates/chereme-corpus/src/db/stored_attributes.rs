@@ -99,7 +99,7 @@ pub(crate) fn attributes_by_token(
         }
     }
     let signs: Vec<i64> = by_sign.keys().copied().collect();
-    // A row of a table is told by its cells; it must not take attributes of the sign's other rows.
+    // A row of a table is known by its cells; it must not take attributes of the sign's other rows.
     let mut statement = connection.prepare_cached(
         "SELECT id, sign_id FROM token WHERE sign_id IN (SELECT value FROM json_each(?1))
              AND NOT (origin = 'lexicon' AND coalesce(instr(source, '\"cells\":'), 0))",

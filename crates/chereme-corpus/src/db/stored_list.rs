@@ -492,7 +492,7 @@ fn sort_sql(column: &ListColumn, down: bool) -> String {
     let sql = column.filter_expression();
     match column.holds {
         ListColumnContent::Text | ListColumnContent::Json(_) => {
-            // Equal folded texts are told apart by the texts themselves, for a stable order.
+            // Equal folded texts are put in order by the texts themselves, for a stable order.
             format!("chereme_folded({sql}) {direction} NULLS LAST, {sql} {direction}, ")
         }
         _ => format!("{sql} {direction} NULLS LAST, "),

@@ -111,7 +111,7 @@ pub(super) fn write_token_csv(
     let sign_titles = titles.chain(translations).chain(notation);
     let titles = sign_titles.chain(columns.iter().map(token_column_title));
     let titles: Vec<String> = titles.collect();
-    // An attribute of the same title as a column could not be told from it when the table is read back.
+    // An attribute of the same title as a column could not be distinguished from it when the table is read back.
     named.retain(|name| !titles.contains(name));
     let titles = titles.into_iter().chain(named.iter().cloned());
     table.write_record(titles)?;

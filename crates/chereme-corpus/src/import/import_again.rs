@@ -178,7 +178,7 @@ pub(super) fn groups_json(groups: &BTreeMap<ChannelGroup, Vec<usize>>) -> String
 /// unless that is the reader's `guess`.
 pub(super) fn options_again(options: &ImportOptions, was: &MotionTrack, guess: SpaceConvention) -> ImportOptions {
     let before = was.convention;
-    // A value that equals the guess was itself a guess, and is guessed anew with the other options.
+    // A value that equals the guess was itself a guess, and is guessed again with the other options.
     let unit = (before.metres_per_unit != guess.metres_per_unit).then_some(before.metres_per_unit);
     ImportOptions {
         metres_per_unit: options.metres_per_unit.or(unit),

@@ -42,7 +42,7 @@ pub(super) fn store_imported_tracks(
     let recording = match joined {
         Some((recording, reason)) => {
             job.note_file_join(recording, reason);
-            // This join rests on the weakest evidence, so the user is told how to undo it.
+            // This join rests on the weakest evidence, so the user reads how to undo it.
             if reason == JoinReason::OnlyInFolder {
                 report_folder(job, recording, report)?;
             }

@@ -296,7 +296,7 @@ pub(super) fn find_reader_index(path: &Path) -> Option<usize> {
     let ending = lower_file_ending(path)?;
     FILE_READERS
         .iter()
-        // Some endings belong to several kinds, which only the content tells apart.
+        // Some endings belong to several kinds, which only the content distinguishes.
         .position(|reader| reader.endings.contains(&ending.as_str()) && (reader.looks)(path))
 }
 

@@ -385,7 +385,7 @@ fn plan_named_property(
     let names = search_answers::list_row_names(ask.connection, rows)?;
     let matching_names = names.iter().filter(|(_, name)| wish.is_requested_name(name));
     let mut ids: Vec<i64> = matching_names.map(|(id, _)| *id).collect();
-    // A gloss of several lexicons is told apart as `NGT/BOOK`; a gloss may hold a slash itself.
+    // A gloss of several lexicons is distinguished as `NGT/BOOK`; a gloss may hold a slash itself.
     if ids.is_empty() && property == WholeTokenProperty::Sign {
         let entries = search_answers::list_row_names(ask.connection, NamedRowKind::LexiconEntry)?;
         let matching_entries = entries.iter().filter(|(_, name)| wish.is_requested_name(name));

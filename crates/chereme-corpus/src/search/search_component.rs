@@ -77,7 +77,7 @@ impl ComponentTest {
     fn accepts_by(&self, accepted: &[AcceptedValues], reading: &ComponentReading, folded: &str) -> bool {
         self.comparison.comparison_accepts_reading(reading, |text, wanted| {
             let values = self.comparison.values.iter().zip(accepted);
-            // The comparison passes its own values on, so that the address tells which one is asked.
+            // The comparison passes its own values on, so that the address says which one is asked.
             let mut asked = values.filter(|(value, _)| std::ptr::eq(&raw const value.wanted, wanted));
             asked.any(|(_, accepted)| accepted.accepts_stored_value(text, folded))
         })

@@ -228,7 +228,7 @@ fn group_documents_by_value(
     let mut all: DocumentList = groups.iter().flat_map(|(_, docs)| docs).copied().collect();
     all.sort_unstable();
     all.dedup();
-    // A token may be coded as unset or not be coded at all, which a table does not tell apart.
+    // A token may be coded as unset or not be coded at all, which a table does not distinguish.
     unset.extend(docs::subtract_documents(found, &all));
     unset.sort_unstable();
     unset.dedup();

@@ -188,7 +188,7 @@ impl Corpus {
             };
             let film = encode_study_film(animation, options.rate.clamp(1, 120), &mut hear)?;
             drawn += 1;
-            // The name tells nothing about the condition, and equal films become one file.
+            // The name says nothing about the condition, and equal films become one file.
             let name = format!("{}.mp4", &to_hex_text(&Sha256::digest(&film))[..16]);
             let path = media.join(&name);
             // A film of an earlier build must not be removed if this build fails.

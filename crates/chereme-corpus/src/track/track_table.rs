@@ -57,7 +57,7 @@ fn of_curves(curves: &CurveTrack) -> (Vec<String>, Vec<&FrameNumberColumn>) {
 fn of_markers(markers: &MarkerTrack) -> (Vec<String>, Vec<&FrameNumberColumn>) {
     let mut all = Vec::new();
     for point in markers.marker_points() {
-        // Points of two parts may have one name; the part before a colon tells them apart.
+        // Points of two parts may have one name; the part before a colon distinguishes them.
         let name = match point.group.as_str() {
             "" => point.name.clone(),
             group => format!("{group}:{}", point.name),

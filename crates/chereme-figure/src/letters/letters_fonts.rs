@@ -160,7 +160,7 @@ impl SystemFonts {
             };
             let first_family = self.faces.face(*id).and_then(|face| face.families.first());
             let family = first_family.map_or("font", |(name, _)| name);
-            // The number tells fonts of one family apart.
+            // The number distinguishes fonts of one family.
             let font_index = known.loaded.len();
             known.kept += data.len();
             let name = format!("{family} ({font_index})");

@@ -60,7 +60,7 @@ impl<'t> TableTextLines<'t> {
     /// Returns the first lines that are not blank, without one like `sep=;`.
     pub(super) fn first_filled_lines(&self, count: usize) -> Vec<(u64, &str)> {
         let filled_lines = self.filled_lines();
-        // This line tells a spreadsheet the delimiter.
+        // This line names the delimiter for a spreadsheet.
         let filled = filled_lines.filter(|(_, line)| !line.trim_matches('"').starts_with("sep="));
         filled.take(count).collect()
     }

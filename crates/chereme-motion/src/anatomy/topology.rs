@@ -227,7 +227,7 @@ impl PartFinder<'_> {
             .map(|&child| single_child_chain(self.skeleton, child))
             .filter(|chain| chain.len() > 1)
             .collect();
-        // Fewer or more than five chains cannot be told apart by shape.
+        // Fewer or more than five chains cannot be distinguished by shape.
         if has_digits || chains.len() != 5 {
             return;
         }

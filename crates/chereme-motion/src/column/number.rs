@@ -305,7 +305,7 @@ fn why_not(token: &[u8]) -> NotANumber {
         .or(token.strip_prefix(b"+"))
         .unwrap_or(token)
         .to_ascii_lowercase();
-    // Only a number with a comma instead of the point is told so; lists of numbers are not.
+    // Only a number with a comma instead of the point is reported so; lists of numbers are not.
     let dotted: Vec<u8> = token.iter().map(|&b| if b == b',' { b'.' } else { b }).collect();
     // Windows prints infinities and undefined numbers as 1.#INF and 1.#IND.
     let not_finite = [&b"nan"[..], b"inf", b"1.#", b"-1.#"]

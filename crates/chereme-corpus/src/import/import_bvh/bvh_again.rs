@@ -26,7 +26,7 @@ pub(super) fn read_movement_again(
         ..
     } = open_bvh_file(job)?;
     let first = first_frame(&hierarchy, &block, rate, None)?;
-    // The guess is repeated as it was made then, so that what the user stated can be told from it.
+    // The guess is repeated as it was made then, so that what the user stated is distinguished from it.
     let roles = was.manual_joint_roles().unwrap_or_default();
     let anatomy = BodyAnatomy::with_roles(first.clip_skeleton(), &roles)
         .map_err(|error| CorpusError::from_wrong_message(error.to_string()))?;

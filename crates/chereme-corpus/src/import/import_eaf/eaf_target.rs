@@ -179,7 +179,7 @@ fn is_version(
     transcript: &AnnotationTranscript,
     report: &mut FileReport,
 ) -> CorpusResult<bool> {
-    // Without a path nothing tells the two files apart, so the name has to do.
+    // Without a path nothing distinguishes the two files, so the name has to do.
     let Some(path) = &base.path else {
         return Ok(true);
     };

@@ -101,7 +101,7 @@ fn of_vocabulary(
         let Some(id) = entry.values.first().map(|value| value.value.trim().to_owned()) else {
             continue;
         };
-        // A text that means two values could not be told apart in annotations.
+        // A text that means two values could not be distinguished in annotations.
         if id.is_empty() || seen.contains(&fold_text(&id)) || !ids.insert(id.clone()) {
             dropped.push(id);
             continue;

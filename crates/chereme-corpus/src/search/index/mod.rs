@@ -293,7 +293,7 @@ impl OpenIndex {
         progress: &mut ProgressReceiver<'_>,
     ) -> CorpusResult<()> {
         let mut writer = self.writer(INDEX_WRITER_MEMORY_BYTES)?;
-        // A document cannot be changed: it is deleted, and added anew unless its token is gone.
+        // A document cannot be changed: it is deleted, and added again unless its token is gone.
         for &token in touched {
             writer.delete_term(Term::from_field_u64(self.fields.id, token as u64));
         }

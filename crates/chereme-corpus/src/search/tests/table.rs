@@ -414,10 +414,10 @@ fn values_are_counted_by_one_field_and_by_two() {
         ]
     );
     for (fields, part) in [
-        (&["nosuch"][..], "there is no field"),
+        (&["nosuch"][..], "there is no field or attribute"),
         (&["duration"], "are not counted"),
         (&["translation"], "are not counted"),
-        (&["a", "b", "c"], "there is no field"),
+        (&["gloss", "signer", "hand"], "one field or of two"),
         (&[], "one field or of two"),
     ] {
         let error = tally("", fields).expect_err("refused").to_string();

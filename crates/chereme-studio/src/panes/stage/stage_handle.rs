@@ -119,7 +119,7 @@ pub(super) fn show_stage_handles(
             pane: pane.rect,
             projection,
             side,
-            // One of both hands has the axes: two crosses of arrows could not be told apart.
+            // One of both hands has the axes: two crosses of arrows could not be distinguished.
             whole: Some(side) == first,
             id: handle_widget_id(ui, pane, side),
         };

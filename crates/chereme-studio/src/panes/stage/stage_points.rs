@@ -40,7 +40,7 @@ impl RecordingPoints {
     /// changes.
     pub(super) fn request_recording_points(&mut self, seen: &PaneInput<'_>, out: &mut CommandOutbox) -> bool {
         let source = recording_point_tracks(seen);
-        // Theme and recording both change the clouds, so that everything is loaded anew.
+        // Theme and recording both change the clouds, so that everything is loaded again.
         let changed = source != self.source || seen.dark != self.dark;
         if changed {
             *self = Self {

@@ -77,7 +77,7 @@ impl TimelineOverview {
         let open = scene.seen.snapshot.open.as_ref();
         let snapshot = open.map_or(0, |open| Arc::as_ptr(open) as usize);
         let tier = scene.edited_tier();
-        // The address tells snapshots apart without comparing them.
+        // The address distinguishes snapshots without comparing them.
         let now = Some((snapshot, width, tier.map(|tier| tier.row.id)));
         if self.of == now {
             return;
