@@ -102,6 +102,32 @@ impl Corpus {
         })
     }
 
+    /// Removes a lexicon to which no sign belongs. Recordings that were linked to it are linked to none.
+    ///
+    /// # Errors
+    /// Fails if there is no such lexicon, or it has signs.
+    pub fn remove_lexicon(&mut self, name: &str) -> CorpusResult<LexiconRow> {
+        self.store.run_store_operation(|connection| {
+            let row = require_lexicon(connection, name)?;
+            let contents = lexicons::load_lexicon_contents(connection)?;
+            let signs = contents.iter().find(|lexicon| lexicon.lexicon.id == row.id);
+            let signs = signs.map_or(0, |lexicon| lexicon.signs);
+            if signs > 0 {
+                let text = format!("the lexicon {:?} has {signs} signs", row.name);
+                return Err(CorpusError::from_wrong_message(text)
+                    .with_error_place(&row.name)
+                    .with_advice(ErrorRemedy::command_remedy(
+                        "delete its signs first with `chereme delete CORPUS sign:NAME/GLOSS`, or import its table again with --lexicon and the name of another",
+                    )));
+            }
+            lexicons::delete_lexicon(connection, row.id)?;
+            let effect = OperationEffect::RemoveLexicon {
+                lexicon: row.name.clone(),
+            };
+            Ok((row, effect))
+        })
+    }
+
     /// Looks up the glosses of recordings in a lexicon from now on, or in none, and returns the names of the recordings
     /// for which that is new.
     ///

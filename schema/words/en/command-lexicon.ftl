@@ -1,6 +1,7 @@
 ## Messages: `{ $name }` is a variable part.
 
 line-command-lexicon-linked-otherwise = linked otherwise than before: { $n }
+line-command-lexicon-removed = lexicon removed: { $name }
 message-command-lexicon-nothing-changed = nothing is to be changed
 message-command-lexicon-add-option = add --name, --language, --release, --terms, --citation or --notes
 message-command-lexicon-no-lexicon = the corpus has no lexicon: import a table or notation with --lexicon NAME
@@ -13,6 +14,7 @@ help-command-lexicon-glosses-looked-up = The glosses of a recording's tiers are 
 help-command-lexicon-say-what-it-is = Say what a lexicon is: its name, language, version, terms, and how to cite it
 help-command-lexicon-look-up = Look up the glosses of recordings in a lexicon from now on
 help-command-lexicon-look-up-in-none = Look up the glosses of recordings in no lexicon
+help-command-lexicon-remove = Remove a lexicon that has no signs
 help-command-lexicon-by-name = The lexicon, by name
 help-command-lexicon-language = Its sign language, as a code of ISO 639-3 such as dse; an empty text takes it away, here and below
 help-command-lexicon-version = Its version

@@ -61,6 +61,7 @@ history-rename-sign = Sign { $former } renamed to { $sign }, in { $annotations -
 }
 history-set-citation = Citation form: token:{ $token } for { $gloss }
 history-change-lexicon = Lexicon changed: { $lexicon }
+history-remove-lexicon = Lexicon removed: { $lexicon }
 history-measure-signs = Measures of { $signs ->
     [one] { $signs } sign
    *[other] { $signs } signs
@@ -146,6 +147,7 @@ history-summary-only-rename-search = Search renamed: { $summary }
 history-summary-only-change-sign = Sign changed: { $summary }
 history-summary-only-set-citation = Citation form: { $summary }
 history-summary-only-change-lexicon = Lexicon changed: { $summary }
+history-summary-only-remove-lexicon = Lexicon removed: { $summary }
 history-summary-only-measure-signs = Measures stored: { $summary }
 history-summary-only-link-lexicon = Glosses looked up in a lexicon: { $summary }
 history-summary-only-unlink-lexicon = Glosses looked up in no lexicon: { $summary }

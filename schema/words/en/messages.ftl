@@ -145,6 +145,8 @@ message-messages-pace = the pace is { $n }
 message-messages-pace-from-0-1-10-1 = a pace from 0.1 to 10; 1.6 is usual for people who cue
 message-messages-no-duration-in-milliseconds = { $label }: { $text } is no duration in milliseconds
 message-messages-write-for-example-120-from-1 = write for example a=120: from 1 to 60000
+message-messages-lexicon-has-signs = the lexicon { $name } has { $n } signs
+message-messages-delete-its-signs-first = delete its signs first with `chereme delete CORPUS sign:NAME/GLOSS`, or import its table again with --lexicon and the name of another
 message-messages-another-lexicon-called = another lexicon is called { $name }
 message-messages-no-lexicon-called = no lexicon is called { $name }
 message-messages-no-lexicon-called-did-you-mean = no lexicon is called { $name }; did you mean { $near }?

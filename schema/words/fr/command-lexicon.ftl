@@ -1,6 +1,7 @@
 ## Messages: `{ $name }` is a variable part.
 
 line-command-lexicon-linked-otherwise = liés autrement qu’avant : { $n }
+line-command-lexicon-removed = lexique supprimé : { $name }
 message-command-lexicon-nothing-changed = rien n’est à modifier
 message-command-lexicon-add-option = ajoutez --name, --language, --release, --terms, --citation ou --notes
 message-command-lexicon-no-lexicon = le corpus n’a pas de lexique : importez une table ou une notation avec --lexicon NOM
@@ -13,6 +14,7 @@ help-command-lexicon-glosses-looked-up = Les gloses des acteurs d’un enregistr
 help-command-lexicon-say-what-it-is = Dire ce qu’est un lexique : son nom, sa langue, sa version, ses conditions et comment le citer
 help-command-lexicon-look-up = Chercher désormais les gloses d’enregistrements dans un lexique
 help-command-lexicon-look-up-in-none = Ne chercher les gloses d’enregistrements dans aucun lexique
+help-command-lexicon-remove = Supprimer un lexique qui n’a pas de signe
 help-command-lexicon-by-name = Le lexique, par son nom
 help-command-lexicon-language = Sa langue des signes, comme code ISO 639-3 tel que dse ; un texte vide l’enlève, ici et ci-dessous
 help-command-lexicon-version = Sa version

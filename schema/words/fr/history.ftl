@@ -58,6 +58,7 @@ history-rename-sign = Signe { $former } renommé en { $sign }, dans { $annotatio
 }
 history-set-citation = Forme de citation : token:{ $token } pour { $gloss }
 history-change-lexicon = Lexique modifié : { $lexicon }
+history-remove-lexicon = Lexique supprimé : { $lexicon }
 history-measure-signs = Mesures de { $signs ->
     [one] { $signs } signe
    *[other] { $signs } signes
@@ -143,6 +144,7 @@ history-summary-only-rename-search = Recherche renommée : { $summary }
 history-summary-only-change-sign = Signe modifié : { $summary }
 history-summary-only-set-citation = Forme de citation : { $summary }
 history-summary-only-change-lexicon = Lexique modifié : { $summary }
+history-summary-only-remove-lexicon = Lexique supprimé : { $summary }
 history-summary-only-measure-signs = Mesures enregistrées : { $summary }
 history-summary-only-link-lexicon = Gloses cherchées dans un lexique : { $summary }
 history-summary-only-unlink-lexicon = Gloses cherchées dans aucun lexique : { $summary }

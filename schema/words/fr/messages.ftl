@@ -145,6 +145,8 @@ message-messages-pace = l’allure est { $n }
 message-messages-pace-from-0-1-10-1 = une allure de 0,1 à 10 ; 1,6 est l’allure habituelle de qui code
 message-messages-no-duration-in-milliseconds = { $label } : { $text } n’est pas une durée en millisecondes
 message-messages-write-for-example-120-from-1 = écrivez par exemple a=120 : de 1 à 60000
+message-messages-lexicon-has-signs = le lexique { $name } a { $n } signes
+message-messages-delete-its-signs-first = supprimez d’abord ses signes avec `chereme delete CORPUS sign:NAME/GLOSS`, ou importez sa table de nouveau avec --lexicon et le nom d’un autre
 message-messages-another-lexicon-called = un autre lexique s’appelle { $name }
 message-messages-no-lexicon-called = aucun lexique ne s’appelle { $name }
 message-messages-no-lexicon-called-did-you-mean = aucun lexique ne s’appelle { $name } ; vouliez-vous dire { $near } ?

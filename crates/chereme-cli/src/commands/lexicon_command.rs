@@ -44,6 +44,11 @@ enum LexiconAction {
     Link(LexiconLinkArgs),
     /// Look up the glosses of recordings in no lexicon
     Unlink(LexiconRecordingArgs),
+    /// Remove a lexicon that has no signs
+    Remove {
+        /// The lexicon, by name
+        lexicon: String,
+    },
 }
 
 #[derive(Debug, Args)]
@@ -146,6 +151,10 @@ pub(super) fn run(cli: &CommandLine, args: &LexiconArgs, output: &mut CommandOut
             let recordings = link.recordings.linked_recordings(&mut corpus, progress)?;
             let names = corpus.link_lexicon(Some(&link.lexicon), &recordings, progress)?;
             print_linked_recordings(&names, output)?;
+        }
+        Some(LexiconAction::Remove { lexicon }) => {
+            let removed = corpus.remove_lexicon(lexicon)?;
+            output.filled_line("lexicon removed: {name}", &[&removed.name])?;
         }
         Some(LexiconAction::Unlink(recordings)) => {
             let recordings = recordings.linked_recordings(&mut corpus, progress)?;

@@ -114,6 +114,18 @@ pub(crate) fn update_lexicon(connection: &Connection, row: &LexiconRow) -> Corpu
     Ok(())
 }
 
+/// Deletes a lexicon without signs, and the links of recordings and files to it.
+pub(crate) fn delete_lexicon(connection: &Connection, id: i64) -> CorpusResult<()> {
+    for sql in [
+        "UPDATE recording SET lexicon_id = NULL WHERE lexicon_id = ?1",
+        "UPDATE source_file SET lexicon_id = NULL WHERE lexicon_id = ?1",
+        "DELETE FROM lexicon WHERE id = ?1",
+    ] {
+        connection.prepare_cached(sql)?.execute([id])?;
+    }
+    Ok(())
+}
+
 /// Returns the lexicon of a corpus that has only one.
 pub(crate) fn find_sole_lexicon(connection: &Connection) -> CorpusResult<Option<i64>> {
     // Of several lexicons none is more likely than another, which SQL says as NULL.

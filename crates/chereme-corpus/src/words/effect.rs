@@ -105,6 +105,8 @@ pub enum OperationEffect {
     },
     /// A token became the citation form of its sign.
     SetCitation { token: i64, gloss: String },
+    /// A lexicon without signs was removed.
+    RemoveLexicon { lexicon: String },
     /// The signs of a lexicon were measured.
     MeasureSigns { signs: u64 },
     /// A lexicon got other properties.
@@ -327,7 +329,7 @@ impl OperationEffect {
             Self::ChangeSign { former: None, .. } => "{sign}",
             Self::ChangeSign { .. } => "{former} to {sign}, {annotations}",
             Self::SetCitation { .. } => "token:{token} for {gloss}",
-            Self::ChangeLexicon { .. } => "{lexicon}",
+            Self::ChangeLexicon { .. } | Self::RemoveLexicon { .. } => "{lexicon}",
             Self::MeasureSigns { .. } => "{signs} signs",
             Self::LinkLexicon { .. } => "{lexicon}: {recordings} recordings",
             Self::UnlinkLexicon { .. } => "{recordings} recordings",

@@ -214,3 +214,24 @@ fn notation_and_tables_of_one_named_lexicon_are_one_sign_each() {
     let refused = corpus.import_paths(&[bsl], &wrong, &mut ProgressReceiver::silent_progress());
     assert!(!format!("{refused:?}").contains("Imported"), "{refused:?}");
 }
+
+#[test]
+fn a_lexicon_is_removed_once_it_has_no_signs() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = corpus_of_two(folder.path());
+    let error = corpus.remove_lexicon("bsl").expect_err("it has signs");
+    assert_eq!(error.to_string(), "the lexicon \"bsl\" has 2 signs");
+    let moved = ImportOptions {
+        lexicon: Some("Signs of Leeds".into()),
+        ..ImportOptions::default()
+    };
+    import_with(&mut corpus, &folder.path().join("bsl.csv"), &moved);
+    corpus.remove_lexicon("bsl").expect("it is empty");
+    let names = |corpus: &Corpus| -> Vec<String> {
+        let all = corpus.list_lexicons().expect("lexicons");
+        all.into_iter().map(|lexicon| lexicon.lexicon.name).collect()
+    };
+    assert_eq!(names(&corpus), ["Signs of Leeds", "asl"]);
+    corpus.undo_operation().expect("undone");
+    assert_eq!(names(&corpus).len(), 3);
+}

@@ -128,6 +128,7 @@ fn all_effects() -> Vec<OperationEffect> {
         },
         Effect::UnlinkLexicon { recordings: 2 },
         Effect::MeasureSigns { signs: 2145 },
+        Effect::RemoveLexicon { lexicon: "BSL".into() },
         Effect::Transcribe {
             token: 7,
             gloss: gloss.clone(),
