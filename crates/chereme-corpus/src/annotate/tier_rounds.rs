@@ -144,6 +144,7 @@ impl Corpus {
             recordings: Vec::new(),
             untouched: 0,
         };
+        let mut is_tried = false;
         let carry = |connection: &Connection, progress: &mut ProgressReceiver<'_>| {
             let mut refusals = Vec::new();
             for (done, id) in ids.iter().enumerate() {
@@ -179,13 +180,14 @@ impl Corpus {
                 return Err(nothing_to_change(ids.len()));
             }
             if options.dry_run {
-                // An error rolls the attempt back.
+                // An error rolls the attempt back; who stops it earlier gets no half of a list.
+                is_tried = true;
                 return Err(CorpusError::Stopped);
             }
             Ok(((), report.round_effect()))
         };
         match self.store.operation_with_progress(progress, carry) {
-            Err(CorpusError::Stopped) if options.dry_run && !report.recordings.is_empty() => Ok(report),
+            Err(CorpusError::Stopped) if is_tried => Ok(report),
             done => done.map(|()| report),
         }
     }

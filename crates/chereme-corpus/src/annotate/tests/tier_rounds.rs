@@ -131,3 +131,22 @@ fn a_shift_of_many_recordings_is_one_step() {
     corpus.undo_operation().expect("undone");
     assert_eq!(shown(&corpus), "G 1 0-100 BOL; H 2 50-100 CHAT");
 }
+
+#[test]
+fn a_dry_run_that_is_stopped_gives_no_half_of_a_list() {
+    let (_folder, mut corpus) = three_recordings();
+    let work = TierRoundWork::Add(NewTier::new(RowName::Number(0), "new", TierRole::Free));
+    let options = TierRoundOptions {
+        dry_run: true,
+        ..TierRoundOptions::default()
+    };
+    let mut stop = |step: ProgressStep<'_>| match step.done {
+        0 => std::ops::ControlFlow::Continue(()),
+        _ => std::ops::ControlFlow::Break(()),
+    };
+    let progress = &mut ProgressReceiver::new(&mut stop);
+    let stopped = corpus.work_on_tiers(&TierRoundScope::All, &work, options, progress);
+    assert!(matches!(stopped, Err(CorpusError::Stopped)), "{stopped:?}");
+    let report = work_on(&mut corpus, &TierRoundScope::All, &work, options).expect("tried");
+    assert_eq!(report.recordings.len(), 3);
+}
