@@ -57,7 +57,7 @@ fn main() -> ExitCode {
     // A panic that the library catches and reports must not print a trace first.
     chereme_corpus::hide_handled_panics();
     chereme_corpus::on_waiting(output::print_waiting_note);
-    // What is buffered is written even if the command's own code is a failure.
+    // The buffered output is written even if the command's own code is a failure.
     let done = commands::run(&cli, &mut output).and_then(|code| output.finish_output().map(|()| code));
     match done {
         Ok(code) => code,

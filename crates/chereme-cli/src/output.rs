@@ -179,7 +179,7 @@ impl CommandOutput {
             }));
             let _ = self.finish_output();
         } else {
-            // What was written before the error comes out before it.
+            // Output that was written before the error comes out before it.
             let _ = self.text.flush();
             let spoken = |text: &str| self.translate_message(text);
             let label =

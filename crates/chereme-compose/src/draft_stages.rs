@@ -167,7 +167,7 @@ impl KeptStages {
         self.last = None;
         let kept_size: usize = self.stages.iter().map(DraftStage::stage_memory_size).sum();
         if kept_size + work_memory_size(work) > MAX_DRAFT_NUMBERS {
-            // What this evaluation has not used goes first.
+            // Entries that this evaluation has not used go first.
             let round = self.round;
             self.stages.retain(|stage| stage.round == round);
             if self.stages.iter().map(DraftStage::stage_memory_size).sum::<usize>() + work_memory_size(work)

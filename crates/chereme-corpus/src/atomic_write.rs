@@ -25,7 +25,7 @@ pub(crate) fn write_atomically(
     let part = UnfinishedFile::create_unfinished_file(to).map_err(fault)?;
     let file = File::options().write(true).open(part.unfinished_path());
     let mut out = BufWriter::new(file.map_err(fault)?);
-    // What is still in the buffer may fail to be written, and then the old file must stay.
+    // The rest of the buffer may fail to be written, and then the old file must stay.
     fill(&mut out).and_then(|()| out.flush().map_err(fault))?;
     // Some systems do not rename a file that is open.
     drop(out);

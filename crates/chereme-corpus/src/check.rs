@@ -174,7 +174,7 @@ impl Corpus {
         }
         self.store.rebuild_search_index(progress)?;
         report.mended.push("the search index was built again".to_owned());
-        // What was mended is no longer a fault of the corpus.
+        // A mended fault is no longer one of the corpus.
         report.faults.retain(|fault| !["tokens", "index"].contains(&fault.kind));
         Ok(())
     }

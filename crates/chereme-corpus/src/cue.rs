@@ -129,7 +129,7 @@ const MOST_FILE_BYTES: u64 = 1 << 28;
 pub fn cue_keys_of_file(path: &Path, tier: Option<&str>, options: &KeysOptions) -> CorpusResult<CueKeys> {
     let (read, name, mut findings) = read_aligned_utterance(path, tier, options)?;
     let mut keys = CueKeys::from_read_utterance(&read);
-    // What is odd in the file comes before what is odd in its phones.
+    // Oddities of the file come before those of its phones.
     findings.append(&mut keys.findings);
     keys.findings = findings;
     if keys.keys.is_empty() && keys.findings.is_empty() {

@@ -213,7 +213,7 @@ impl DeletionPlan {
                 break;
             }
             for (recording, name) in std::mem::take(&mut users) {
-                // What is deleted anyway depends on nothing.
+                // A recording that is deleted anyway depends on nothing.
                 if self.recordings.contains(&recording) {
                     continue;
                 }

@@ -87,7 +87,7 @@ impl Corpus {
         if dry_run {
             return Ok(forgotten);
         }
-        // What was removed can no longer be listed afterwards.
+        // Removed things can no longer be listed afterwards.
         let traces = ErasedTraces::collect_traces(self.store.read_connection(), row.id, &recordings)?;
         self.store.erase_signer(row.id, &recordings, progress)?;
         // If erasing fails, the older versions are still needed.

@@ -308,7 +308,7 @@ fn measure_hand_bones(
 /// Returns whether two bodies have the same fingers, each bone as long as the other's.
 fn equal(a: &HandBoneLengths, b: &HandBoneLengths) -> bool {
     let near = |(a, b): (&f64, &f64)| (a - b).abs() <= EQUAL_BONE_TOLERANCE_M.max(EQUAL_SHARE * a.max(*b));
-    // Two bodies without fingers tell nothing about each other's hands.
+    // Two bodies without fingers say nothing about each other's hands.
     !a.is_empty() && a.keys().eq(b.keys()) && a.values().zip(b.values()).all(near)
 }
 

@@ -109,7 +109,7 @@ impl SampleBuffers {
         let rows = self.rows_of(&self.used[1]);
         let (depth, paint) = (&mut self.depth[rows.clone()], &mut self.paint[rows.clone()]);
         for ((depth, paint), before) in depth.iter_mut().zip(paint).zip(&self.solid[rows]) {
-            // What is less than the distance before the surface counts as behind it.
+            // A point at less than the distance before the surface counts as behind it.
             if *before < *depth + VEIL_DISTANCE_METRES {
                 *depth = PAPER_DEPTH;
                 *paint = 0;

@@ -287,7 +287,7 @@ impl ClipFraming {
             let half_height = self.hand * 0.66 / aspect.clamp(1e-3, 1.0);
             let camera = turned_framing.place_framing_camera(target, [towards, up], half_height);
             return FigureCamera {
-                // What stands before the hand, such as the other arm, is cut away by the near plane.
+                // Parts before the hand, such as the other arm, are cut away by the near plane.
                 near: half_height * FRAMING_EYE_DISTANCE - self.hand * 1.2,
                 ..camera
             };

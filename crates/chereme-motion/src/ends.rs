@@ -241,7 +241,7 @@ impl ClipEnds {
         }
         let seen = looks.available_frame_range(&self.sound);
         let start = seen.start;
-        // What follows a removed frame at jump speed is still the way out of it.
+        // A frame that follows a removed one at jump speed is still the way out of it.
         let snap_frames = (start..seen.end - 1).take_while(|&frame| looks.is_snap(frame));
         let snap = start + snap_frames.take(window).count();
         // Fast steps alone are no fault: they extend an odd range that was already found.

@@ -76,7 +76,7 @@ impl RotationOrder {
     fn locked(self, m: &DMat3, sine: f64, near: [f64; 3]) -> [f64; 3] {
         let [a, b, c] = self.0;
         let middle = sine.signum() * PI / 2.0;
-        // Takes the first two rotations off; what is left turns about the third axis alone.
+        // Takes the first two rotations off; the rest turns about the third axis alone.
         let rest = b.axis_rotation(middle).inverse() * a.axis_rotation(near[0]).inverse();
         let left = (rest * DQuat::from_mat3(m)).normalize();
         let third = 2.0 * left.to_array()[c.index()].atan2(left.w);

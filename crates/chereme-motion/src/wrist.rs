@@ -116,7 +116,7 @@ fn nearest_on_ellipse(point: [f64; 2], ends: [f64; 2]) -> [f64; 2] {
         t += over / (2.0 * (u * u / (t + a * a) + v * v / (t + b * b)));
     }
     let (u, v) = (a * x / (t + a * a), b * y / (t + b * b));
-    // What the iteration leaves outside the ellipse is scaled onto it.
+    // A direction that the iteration leaves outside the ellipse is scaled onto it.
     let size = (u * u + v * v).sqrt().max(1.0);
     [a * u / size, b * v / size]
 }

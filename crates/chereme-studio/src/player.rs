@@ -319,7 +319,7 @@ impl StagePlayer {
             return self.next_piece();
         }
         if self.looping {
-            // What it ran over goes on from the other end, so that a loop keeps its rhythm.
+            // The time beyond the end goes on from the other end, so that a loop keeps its rhythm.
             self.at = start + (self.at - start).rem_euclid((end - start).max(1.0));
         } else {
             // Played out: the next press starts again.

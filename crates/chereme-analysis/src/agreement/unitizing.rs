@@ -87,7 +87,7 @@ fn observed_unit_difference(first: &[AnnotatedUnit], second: &[AnnotatedUnit]) -
     let mut sum = 0.0;
     let mut begin = 0;
     for unit in first {
-        // Units rise by time: what ends before this one cannot meet a later one.
+        // Units rise by time: one that ends before this one cannot meet a later one.
         while begin < second.len() && second[begin].end <= unit.start {
             begin += 1;
         }

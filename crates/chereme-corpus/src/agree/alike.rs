@@ -48,7 +48,7 @@ fn may_be_compared(a: &TierRow, b: &TierRow) -> bool {
     let may_be_same = |a: &Option<String>, b: &Option<String>| match (a, b) {
         (Some(a), Some(b)) => {
             let (a, b) = (fold_text(a.trim()), fold_text(b.trim()));
-            // What is not said on one tier does not contradict the other.
+            // A value that one tier leaves out does not contradict the other.
             a == b || a.is_empty() || b.is_empty()
         }
         _ => true,

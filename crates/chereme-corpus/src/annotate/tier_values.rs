@@ -58,7 +58,7 @@ pub fn collect_tier_values(tier: &TierContents, inventory: Option<&StoredInvento
         all.push(TierValue {
             value: value.id.clone(),
             name: value.names.get(language).filter(|name| **name != value.id).cloned(),
-            // What is left over are values in use that the inventory does not have.
+            // The others are values in use that the inventory does not have.
             used: used.remove(value.id.as_str()).unwrap_or_default(),
             known: names.chain([&value.id]).map(|name| fold_text(name)).collect(),
         });

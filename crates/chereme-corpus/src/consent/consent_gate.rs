@@ -291,11 +291,11 @@ impl PublishPermissions {
             };
             let licence = stated_licence(row);
             let from_others = inputs.is_some_and(|list| !list.is_empty());
-            // What the recording itself states holds even where its sources allow more.
+            // The recording's own statement holds even where its sources allow more.
             if (self.stated_audience(contributor, kind).own).is_some_and(|own| own < self.audience) {
                 return Err(withheld(WithheldReason::NotPublic));
             }
-            // What is made from others shows a sign that was derived, and not what was recorded.
+            // A recording made from others shows a derived sign, and nothing that was recorded.
             let kind = if from_others { ConsentKind::Derived } else { kind };
             self.may_be_seen(contributor, kind).map_err(withheld)?;
             match licence {

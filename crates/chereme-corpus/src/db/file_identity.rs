@@ -29,7 +29,7 @@ impl FileIdentity {
     #[must_use]
     pub fn is_same_file_present(&self) -> bool {
         match self.path.metadata() {
-            // A system without numbers of files cannot tell a replaced file, so that any file at the path
+            // A system without numbers of files cannot recognise a replaced file, so that any file at the path
             // counts.
             Ok(now) => self.id.is_none() || device_file_number(&now) == self.id,
             Err(error) => error.kind() != std::io::ErrorKind::NotFound,

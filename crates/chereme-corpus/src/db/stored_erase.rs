@@ -118,13 +118,13 @@ impl ErasedTraces {
         }
         let long_texts = self.texts.iter().filter(|text| text.len() >= LEAST_TRACE_BYTES);
         let searched_bytes = long_texts
-            // What other rows say lies in the bytes rightfully.
+            // Texts of other rows lie in the bytes rightfully.
             .filter(|text| !said.contains_key(*text))
             .map(String::as_bytes)
             .chain(all_bytes.filter(|bytes| !known_bytes.contains(*bytes)));
         let finder = TraceFinder::from_traces(searched_bytes);
         let mut left = BTreeSet::new();
-        // What was written last may still lie in the log beside the file.
+        // The last changes may still lie in the log beside the file.
         for file in [path.to_owned(), companion_path(path, "-wal")] {
             finder.search_file(&file, &mut left)?;
         }

@@ -36,7 +36,7 @@ pub(crate) struct LexiconMovement {
 ///
 /// Annotations by the program itself (a detector, a recipe) are left out.
 pub(crate) fn movement_spans(connection: &Connection, most: usize) -> CorpusResult<Vec<MovementSpan>> {
-    // What the program itself found must not become the measure by which it is tuned.
+    // The program's own findings must not become the measure by which it is tuned.
     let mut statement = connection.prepare_cached(
         "SELECT t.recording_id, t.hand, t.feature, a.start_us, a.end_us, a.value, t.inventory_id
          FROM tier t JOIN recording r ON r.id = t.recording_id JOIN annotation a ON a.tier_id = t.id

@@ -491,7 +491,7 @@ fn add_missing_vocabulary_values(vocabulary: &mut ControlledVocabulary, annotati
     let language = entry_language.map(|value| value.language.clone()).unwrap_or_default();
     for row in annotations
         .iter()
-        // What the file itself has outside of its vocabulary was meant so by its authors.
+        // Values that the file itself has outside of its vocabulary were meant so by its authors.
         .filter(|row| row.origin != AnnotationOrigin::File && row.state == ValueState::Value)
     {
         let mut all = vocabulary.entries.iter().flat_map(|entry| &entry.values);

@@ -130,7 +130,7 @@ pub(crate) fn load_recording_expressions(
             expressions.push(signing.expression_over_annotation(recording, annotation_function, &annotation));
         }
     }
-    // What is left has milestones but no annotation of its function.
+    // The others have milestones but no annotation of their function.
     expressions.extend(written);
     expressions.sort_by_key(|expression| (expression.milestones.m2, expression.annotation));
     Ok(expressions)

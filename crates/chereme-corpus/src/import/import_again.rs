@@ -71,7 +71,7 @@ pub(super) fn update_recording_description(
             ErrorRemedy::command_remedy("name the signer, too, with --signer"),
         ));
     }
-    // Only notes tell of changes; warnings say that nothing was done.
+    // Only notes report changes; warnings say that nothing was done.
     let changed = report.findings[finding_count..]
         .iter()
         .any(|finding| finding.severity == "note");

@@ -404,7 +404,7 @@ fn find_or_add_recording(
     let file_origin = property(ORIGIN_PROPERTY).and_then(|origin| RecordOrigin::parse_recording_origin(&origin).ok());
     let origin = options.origin.or(file_origin);
     let licence = options.licence.clone().or_else(|| property(LICENCE_PROPERTY));
-    // What the caller states counts more than what was found beside the file.
+    // The caller's statement counts more than a file found beside this one.
     let paired = match &options.into {
         Some(into) => {
             let id = crate::address::find_recording_by_name(job.connection, into)?.id;

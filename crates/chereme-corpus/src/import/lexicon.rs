@@ -561,7 +561,7 @@ fn import_entry(
         })
         .collect();
     if is_known {
-        // What the program measured is not the table's to remove.
+        // Measures of the program are not the table's to remove.
         let stored = stored_attributes::of_tokens(connection, &[token])?.remove(&token);
         let measures = stored
             .into_iter()

@@ -604,7 +604,7 @@ fn stored_measures_are_attributes_that_outlive_the_table() {
         .map(|row| format!("{} {}", row.value, row.total))
         .collect();
     assert_eq!(counts, ["1 2", "2 1"]);
-    // The table comes again with another frequency; what was measured is not its to remove.
+    // The table comes again with another frequency; measures are not its to remove.
     let file = folder.path().join("t.csv");
     std::fs::write(&file, table.replace(",9", ",99")).expect("written");
     let files = [file];

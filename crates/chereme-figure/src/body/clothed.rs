@@ -325,7 +325,7 @@ impl ClothesMaker {
         for index in 0..self.cloths.len() {
             self.weigh_cloth_vertex(index, index >= first_arm);
         }
-        // The order of rings does not tell which way triangles face.
+        // The order of rings does not show which way triangles face.
         if self.clothes_volume() < 0.0 {
             for triangle in &mut self.triangles {
                 triangle.swap(1, 2);

@@ -40,7 +40,7 @@ const MOUTH_HALF_WIDTH: f32 = 0.110;
 impl FaceFeatures {
     pub(super) fn from_face_values(face: &FacePosture) -> Self {
         let number = |number: f64| {
-            // A face from a file may hold anything: what is not a number is taken as neutral.
+            // A face from a file may hold anything: a value that is no number is taken as neutral.
             if number.is_finite() {
                 number.clamp(-1.0, 1.0) as f32
             } else {

@@ -59,7 +59,7 @@ impl<'a> PartFinder<'a> {
         let assigned: Vec<usize> = assignments.values().copied().flatten().collect();
         let mut markers = anatomy_markers::find_marker_joints(skeleton, &names, &labels);
         markers.retain(|joint| !assigned.contains(joint));
-        // What the user assigned and what is a marker is no longer named by its label.
+        // Joints that the user assigned and markers are no longer named by their labels.
         for joint in assigned.into_iter().chain(markers.iter().copied()) {
             labels[joint] = None;
         }

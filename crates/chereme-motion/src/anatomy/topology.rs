@@ -61,7 +61,7 @@ impl PartFinder<'_> {
             .filter_map(|part| self.assigned_joint(part))
             .collect();
         let children = self.skeleton.joint_children(chest).iter().copied();
-        // What carries an arm is no neck.
+        // A joint that carries an arm is no neck.
         let free = children.filter(|&child| !arms.iter().any(|&arm| self.is_below(arm, child)));
         let depths = depths(self.skeleton);
         // The longest chain is that of the head; others are helpers.
@@ -279,7 +279,7 @@ fn find_limb_pairs(skeleton: &Skeleton) -> Vec<LimbPair> {
     let mut pairs: Vec<LimbPair> = Vec::new();
     let mut inside = vec![false; skeleton.len()];
     for fork in 0..skeleton.len() {
-        // What lies inside a limb is part of it: hands would be pairs of their own.
+        // Pairs inside a limb are part of it: hands would be pairs of their own.
         inside[fork] |= skeleton.joint_parent(fork).is_some_and(|parent| inside[parent]);
         if inside[fork] {
             continue;

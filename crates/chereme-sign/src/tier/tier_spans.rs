@@ -302,7 +302,7 @@ fn right(
             new
         };
         new = moved(by);
-        // What would go beyond the limit is taken back from the whole move.
+        // The part beyond the limit is taken back from the whole move.
         let over = new.last().map_or(0, |last| last.end - limits.to);
         return if over > 0 { moved((by - over).max(0)) } else { new };
     }

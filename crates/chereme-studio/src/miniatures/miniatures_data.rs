@@ -115,7 +115,7 @@ pub(crate) fn keys_to_evict<K: Clone + Ord>(
     let mut total: usize = all.iter().map(|(_, _, bytes)| bytes).sum();
     let mut leaving = Vec::new();
     for (when, key, bytes) in all {
-        // What is visible now stays even beyond the limit.
+        // Visible pieces stay even beyond the limit.
         if total <= limit || when >= now {
             break;
         }

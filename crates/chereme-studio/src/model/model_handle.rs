@@ -65,14 +65,14 @@ impl PlacementHandle {
             PlacementGoal::By(legs) => Some(sum(legs)),
             PlacementGoal::Near { by, .. } => Some(sum(by)),
             PlacementGoal::AtPoint(at) => Some(at.map(|length| length.length_in_metres(arm))),
-            // A named place has no number of its own: what it moved so far stands for it.
+            // A named place has no number of its own: its way so far stands for it.
             PlacementGoal::At(_) | PlacementGoal::Best(_) => self.moved,
         }
     }
 
     /// Returns the goal with another value; a named place becomes an offset.
     pub(crate) fn goal_with_value(&self, value: [f64; 3]) -> PlacementGoal {
-        // What a person drags is no named place any more.
+        // A dragged handle is at no named place any more.
         match &self.to {
             PlacementGoal::By(_) | PlacementGoal::At(_) | PlacementGoal::Best(_) => {
                 PlacementGoal::By(offset_legs(value))

@@ -89,7 +89,7 @@ pub(super) fn find_wrist_sway(
             runner_up: Some((motions[most], swing.range / 2.0)),
         });
     }
-    // What starts at an end of its range goes there and back and does not swing about a middle.
+    // A movement that starts at an end of its range goes there and back and does not swing about a middle.
     if !(0.2..=0.8).contains(&swing.start) {
         return None;
     }

@@ -320,7 +320,7 @@ impl<'c> TokenDocumentReader<'c> {
                 .marks
                 .push(self.shared_mark_term(TokenProperty::Inventory, &name));
         }
-        // What is annotated of the token as a whole outweighs the hands of its coded values.
+        // An annotation of the token as a whole outweighs the hands of its coded values.
         if let Some(hand) = token.hand {
             coded = TokenHandRoles::default();
             coded.add_tier_hands(Some(hand), left_handed);

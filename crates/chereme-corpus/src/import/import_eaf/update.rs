@@ -398,7 +398,7 @@ impl AnnotationUpdate<'_> {
             .collect();
         for row in old.rows.into_values() {
             let meets = |span: &[i64; 2]| row.start_us < span[1] && span[0] < row.end_us;
-            // What was made here and overlaps nothing of the file stays, since the file cannot have removed
+            // An annotation made here that overlaps nothing of the file stays, since the file cannot have removed
             // it.
             if row.external_id.is_some() || spans.iter().any(meets) {
                 self.left.push((it.name.clone(), row));

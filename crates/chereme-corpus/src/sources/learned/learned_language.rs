@@ -187,7 +187,7 @@ impl MovementSamples {
             }
             "preparation" => {
                 let usual = BodyLanguage::default_body_language();
-                // What the path and the turn take by the usual numbers is taken away; the rest is the
+                // The time that the path and the turn take by the usual numbers is taken away; the rest is the
                 // constant part.
                 let path_time = usual.time_transition_arm * found.length / arm;
                 let turn = usual.time_turn * found.turn / std::f64::consts::FRAC_PI_2;

@@ -179,7 +179,7 @@ impl TranscriptMergeWork<'_> {
         let tiers = self.pieces.tiers.iter();
         let chained_tiers = tiers.filter(|(tier, above)| is_chained(tier) && above.is_some());
         let chained: BTreeSet<String> = chained_tiers.map(|(tier, _)| tier.name.clone()).collect();
-        // What goes leaves those below it without a parent.
+        // An annotation that goes leaves those below it without a parent.
         loop {
             let all = &self.pieces.all;
             let lost = all.iter().filter(|(_, it)| {

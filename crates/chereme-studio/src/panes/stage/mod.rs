@@ -166,7 +166,7 @@ impl StagePane {
             (None, Some(it)) => Some((MovementIdentity(Arc::as_ptr(it) as usize), &it.clip, &it.anatomy)),
             (None, None) => None,
         };
-        // Addresses tell movements apart without comparing all their frames.
+        // Addresses distinguish movements without comparing all their frames.
         if self.signer.as_ref().map(|signer| signer.0) != now.map(|entry| entry.0) {
             // While a hand is being placed, the camera does not move.
             let newer = self.made && made.is_some();

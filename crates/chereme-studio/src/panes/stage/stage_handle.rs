@@ -435,7 +435,7 @@ fn handle_gizmo_keys(
     response: &Response,
 ) {
     if !response.has_focus() {
-        // What Escape restores is kept as long as the handle has the focus.
+        // The state that Escape restores is kept as long as the handle has the focus.
         if response.lost_focus() {
             holding.before = None;
         }

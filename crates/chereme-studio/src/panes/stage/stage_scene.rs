@@ -179,7 +179,7 @@ impl StageSubject {
         let reach = ((reach * 1e6) as i64 / TRAIL_STEP).max(1);
         let now = at.instant_micros() / TRAIL_STEP;
         let last = end.instant_micros() / TRAIL_STEP;
-        // Points are cheap to compute again, and a long session must not collect them for ever.
+        // Points are cheap to compute again, and hours of use must not collect them for ever.
         if self.points.len() > MAX_TRAIL_POINTS {
             self.points.clear();
         }

@@ -145,7 +145,7 @@ pub(super) fn show_value_field(
         timeline.entry.left = false;
         return;
     };
-    // Another recording was opened while the value was typed: what was typed is stored there.
+    // Another recording was opened while the value was typed: the value belongs to the former one.
     if editing.recording != scene.contents.recording.id {
         let text = editing.text.trim().to_owned();
         timeline_edit::store_typed_value(timeline, editing, &text, out);
@@ -164,7 +164,7 @@ pub(super) fn show_value_field(
         return;
     };
     let choices = scene.scene_tier_values(tier);
-    // The keyboard left the field: what can be stored is stored, the rest waits in it.
+    // The keyboard left the field: a valid value is stored, another waits in it.
     if std::mem::take(&mut timeline.entry.left) {
         if let Some(value) = choices.value_to_store(&editing.text, editing.marked) {
             return carry_out_field_key(timeline, editing, tier, FieldKey::Keep(value, false), out);
@@ -529,7 +529,7 @@ fn find_place(editing: ValueEditing, scene: &TimelineScene<'_>, out: &mut Comman
             .iter()
             .filter_map(|id| scene.seen.snapshot.find_open_annotation(*id));
         if let Some(it) = found_annotations.next() {
-            // What was stored as typed needs no field; several annotations may differ, so that theirs stays.
+            // A value that was stored as typed needs no field; several annotations may differ, so that theirs stays.
             let stored = requests::typed_annotation_value(&it.tier.annotations, it.at) == editing.text;
             return (!stored || all.len() > 1).then_some(editing);
         }

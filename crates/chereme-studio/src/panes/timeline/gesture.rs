@@ -163,7 +163,7 @@ impl TimelineDrawing<'_, '_> {
     ) {
         let tier = &contents.tiers[at];
         let from = self.instant_at_x(origin.x - lane.left()).instant_micros();
-        // The playhead follows the drag; boundaries snap to where it was.
+        // The playhead follows the drag; boundaries snap to its place before the drag.
         self.timeline.mark = self.seen.shown.player.player_playhead().instant_micros();
         let hit = self.under(contents, at, lane, origin.x);
         let id = hit.map(|(found, _)| tier.annotations.ids[found]);

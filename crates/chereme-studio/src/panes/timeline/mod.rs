@@ -385,7 +385,7 @@ impl PaneInterface for TimelinePane {
                 self.asked.to_select = report.annotations.iter().copied().collect();
                 self.asked.to_edit = then.edit;
             }
-            // What was refused stays marked while proposals are accepted.
+            // Refused proposals stay marked while others are accepted.
             Ok(_) if then.proposals.is_empty() => self.asked.refused.clear(),
             Ok(_) => {}
             Err(_) => {

@@ -174,7 +174,7 @@ impl TimelineDrawing<'_, '_> {
         let before = next.map(|(at, _)| all[*at].0);
         if released {
             self.timeline.tier_held = None;
-            // In front of itself is where it is already.
+            // A tier that is dropped in front of itself stays.
             let order = timeline_tiers::order_before_sibling(&all, id, before).filter(|_| before != Some(id));
             if let Some(order) = order {
                 let scene = TimelineScene {
