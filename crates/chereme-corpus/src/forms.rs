@@ -19,7 +19,8 @@ use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
 use crate::suggest;
 
 /// The treatment of an empty cell.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum EmptyCellTreatment {
     /// An empty cell is a value like any other: a sign without a weak hand differs from one with it, and two signs
     /// without it are equal there.
@@ -187,23 +188,44 @@ pub(crate) fn named_fields(fields: &[String]) -> Vec<String> {
     }
 }
 
+/// The forms that are wanted.
+#[derive(Debug, Clone)]
+pub(crate) enum FormSelection {
+    /// One form of every sign.
+    All,
+    /// The form of each of these tokens.
+    Tokens(Vec<TokenRow>),
+    /// One form of each of these signs.
+    Signs(BTreeSet<i64>),
+}
+
+impl FormSelection {
+    /// Selects the signs of selected tokens.
+    pub(crate) fn select_signs(self) -> Self {
+        match self {
+            Self::Tokens(tokens) => Self::Signs(tokens.iter().map(|token| token.sign_id).collect()),
+            other => other,
+        }
+    }
+}
+
 impl Corpus {
-    /// Returns the forms of signs by some fields: the rows of the imported tables that have all of them as columns,
-    /// otherwise the codings of citation forms by fields of queries; without fields by all that are coded. With `among`,
-    /// of these tokens alone. The signs belong to the lexicons of `scope`.
+    /// Returns the selected forms by some fields: the rows of the imported tables that have all of them as columns,
+    /// otherwise the codings of tokens by fields of queries; without fields by all that are coded. A sign is represented by
+    /// its citation form. The signs belong to the lexicons of `scope`.
     ///
     /// # Errors
     /// [`Error::Wrong`] if a field does not exist; [`Error::Stopped`].
     pub(crate) fn load_sign_forms(
         &self,
         fields: &[String],
-        among: Option<&[TokenRow]>,
+        selection: &FormSelection,
         scope: &LexiconScope,
         progress: &mut ProgressReceiver<'_>,
     ) -> CorpusResult<SignForms> {
-        match of_tables(self.store.read_connection(), fields, among, scope)? {
+        match of_tables(self.store.read_connection(), fields, selection, scope)? {
             Some(forms) => Ok(forms),
-            None => of_codings(self, fields, among, scope, progress),
+            None => of_codings(self, fields, selection, scope, progress),
         }
     }
 
@@ -320,7 +342,7 @@ fn standing_entry<'a>(
 fn of_tables(
     connection: &Connection,
     fields: &[String],
-    among: Option<&[TokenRow]>,
+    selection: &FormSelection,
     scope: &LexiconScope,
 ) -> CorpusResult<Option<SignForms>> {
     // Without fields, codings are meant, which do not need a table.
@@ -333,7 +355,15 @@ fn of_tables(
     let mut lacking: Option<(usize, &String)> = None;
     let mut columns: Option<Vec<FormField>> = None;
     let tables = load_standing_entries(connection)?;
-    let among: Option<BTreeSet<i64>> = among.map(|tokens| tokens.iter().map(|token| token.id).collect());
+    let selected_tokens: BTreeSet<i64> = match selection {
+        FormSelection::Tokens(tokens) => tokens.iter().map(|token| token.id).collect(),
+        _ => BTreeSet::new(),
+    };
+    let is_selected = |entry: &StandingEntry| match selection {
+        FormSelection::All => true,
+        FormSelection::Tokens(_) => selected_tokens.contains(&entry.token),
+        FormSelection::Signs(signs) => signs.contains(&entry.sign),
+    };
     for file in stored_recordings::lexicon_files(connection)? {
         let Some(table) = table_of(connection, &file)? else {
             continue;
@@ -367,8 +397,7 @@ fn of_tables(
         };
         rows.extend(table.entries.iter().filter_map(|entry| {
             let standing = standing_entry(entries, &table, entry)?;
-            let among = among.as_ref();
-            among.is_none_or(|ids| ids.contains(&standing.token)).then(|| {
+            is_selected(standing).then(|| {
                 let form = SignForm {
                     gloss: standing.gloss.clone(),
                     cells: (places.iter()).map(|at| entry.cells[*at].trim().to_owned()).collect(),
@@ -429,18 +458,18 @@ fn coding_of_column(column: &LexiconColumn) -> Option<String> {
 fn of_codings(
     corpus: &Corpus,
     fields: &[String],
-    among: Option<&[TokenRow]>,
+    selection: &FormSelection,
     scope: &LexiconScope,
     progress: &mut ProgressReceiver<'_>,
 ) -> CorpusResult<SignForms> {
-    let (tokens, source) = match among {
-        Some(tokens) => (tokens.to_vec(), FormSource::Tokens),
-        None => (
-            signs::load_citation_tokens(corpus.store.read_connection())?,
-            FormSource::Citations,
-        ),
-    };
     let connection = corpus.store.read_connection();
+    let (mut tokens, source) = match selection {
+        FormSelection::Tokens(tokens) => (tokens.clone(), FormSource::Tokens),
+        _ => (signs::load_citation_tokens(connection)?, FormSource::Citations),
+    };
+    if let FormSelection::Signs(signs) = selection {
+        tokens.retain(|token| signs.contains(&token.sign_id));
+    }
     let tokens = keep_scope_rows(connection, scope, tokens, |token| token.sign_id)?;
     let all = tokens.len() as u64;
     let mut codings = Vec::new();

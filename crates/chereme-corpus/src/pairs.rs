@@ -102,12 +102,9 @@ impl Corpus {
         options: &PairOptions,
         progress: &mut ProgressReceiver<'_>,
     ) -> CorpusResult<MinimalPairs> {
-        let tokens = match &options.query {
-            Some(query) => Some(self.tokens_found(query, progress)?),
-            None => None,
-        };
+        let selection = self.select_forms(options.query.as_deref(), progress)?;
         let fields = named_fields(&options.fields);
-        let forms = self.load_sign_forms(&fields, tokens.as_deref(), &options.scope, progress)?;
+        let forms = self.load_sign_forms(&fields, &selection, &options.scope, progress)?;
         find_minimal_pairs(forms, options.empty)
     }
 }

@@ -72,21 +72,6 @@ fn facet_count(text: &str) -> Result<usize, String> {
     }
 }
 
-/// Returns the order that a word means: an attribute of this name unless it is one of the four words.
-fn parse_hit_order(word: &str) -> HitOrder {
-    let attribute = |name: &str| name.strip_prefix("attribute.").unwrap_or(name).to_owned();
-    match word {
-        "rank" => HitOrder::Rank,
-        "gloss" => HitOrder::Gloss,
-        "place" => HitOrder::Place,
-        "duration" => HitOrder::Duration,
-        _ => match word.strip_prefix('-') {
-            Some(name) => HitOrder::AttributeDescending(attribute(name)),
-            None => HitOrder::Attribute(attribute(word)),
-        },
-    }
-}
-
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum TableFormat {
     /// A table for people to read
@@ -130,7 +115,7 @@ pub(super) fn run(cli: &CommandLine, args: &SearchArgs, output: &mut CommandOutp
         offset: args.offset,
         facets: !args.no_facets,
         facet_values: args.facets.unwrap_or(FACET_VALUES),
-        order: parse_hit_order(&args.sort),
+        order: HitOrder::order_from_word(&args.sort),
     };
     let query = args.query.join(" ");
     let mut answer = corpus.search_tokens(&query, &options)?;
@@ -148,7 +133,7 @@ pub(super) fn run(cli: &CommandLine, args: &SearchArgs, output: &mut CommandOutp
         answer
             .hits
             .iter()
-            .map(|hit| search_hit_cells(hit, has_several))
+            .map(|hit| search_hit_cells(hit, has_several, options.order.order_attribute()))
             .collect()
     };
     if !rows.is_empty() {
@@ -264,7 +249,8 @@ fn save_named_query(corpus: &mut Corpus, args: &SearchArgs, name: &str, query: S
 }
 
 /// Returns the cells of a hit; with `names_lexicon` its gloss is that of a lexicon: `NGT/BOOK`.
-fn search_hit_cells(hit: &SearchHit, names_lexicon: bool) -> Vec<String> {
+/// Returns the cells of a hit; before its components stands the value of the attribute that gives the order.
+fn search_hit_cells(hit: &SearchHit, names_lexicon: bool, order_attribute: Option<&str>) -> Vec<String> {
     let lexicon = hit.lexicon.as_ref().filter(|_| names_lexicon);
     let seconds = |micros: i64| format!("{:.3}", micros as f64 / 1e6);
     let length = hit.start_us.zip(hit.end_us).map(|(start, end)| seconds(end - start));
@@ -275,8 +261,11 @@ fn search_hit_cells(hit: &SearchHit, names_lexicon: bool) -> Vec<String> {
         hit.start_us.map(seconds).unwrap_or_default(),
         length.unwrap_or_default(),
         hit.origin.record_origin_name().to_owned(),
-        [components_text(&hit.components)]
+        order_attribute
+            .map(|name| format!("{name}={}", hit.order_values.join(",")))
+            .filter(|_| !hit.order_values.is_empty())
             .into_iter()
+            .chain([components_text(&hit.components)])
             .chain(hit.opinions.iter().map(opinion_text))
             .filter(|text| !text.is_empty())
             .collect::<Vec<_>>()

@@ -11,7 +11,7 @@ use super::compile::{QueryContext, QueryResult};
 use super::docs::{DocumentList, DocumentTimes};
 use super::like::ExampleScores;
 use super::probe::{IndexDocument, NumberColumn, RowField};
-use super::search_attributes;
+use super::search_attributes::{self, TokenAttributes};
 use super::search_finding::QueryFinding;
 use super::search_plan::{self, QueryPlan};
 use crate::db::stored_attributes::AttributeRow;
@@ -75,6 +75,9 @@ pub struct SearchHit {
     /// Its similarity to the example, from 0 to 1, if there is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub score: Option<f64>,
+    /// Its values of the attribute by which the answer is sorted.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub order_values: Vec<String>,
     /// Values by field, such as `initial.right.placement`; a list if there are several. A value that does not apply
     /// is `n/a`, an unclear one `unclear`.
     pub components: BTreeMap<String, Value>,
@@ -122,6 +125,45 @@ pub enum HitOrder {
     AttributeDescending(String),
 }
 
+impl HitOrder {
+    /// The words for the orders that are not attributes.
+    const ORDER_WORDS: [&str; 4] = ["rank", "place", "gloss", "duration"];
+
+    /// Returns the order that a word means: that of an attribute unless it is one of the others; with `-` before it the
+    /// greatest first. `attribute.gloss` is the attribute of that name.
+    #[must_use]
+    pub fn order_from_word(word: &str) -> Self {
+        let attribute = |name: &str| name.strip_prefix("attribute.").unwrap_or(name).to_owned();
+        match word {
+            "rank" => Self::Rank,
+            "place" => Self::Place,
+            "gloss" => Self::Gloss,
+            "duration" => Self::Duration,
+            _ => match word.strip_prefix('-') {
+                Some(name) => Self::AttributeDescending(attribute(name)),
+                None => Self::Attribute(attribute(word)),
+            },
+        }
+    }
+
+    /// Returns the attribute that gives the order.
+    #[must_use]
+    pub fn order_attribute(&self) -> Option<&str> {
+        match self {
+            Self::Attribute(name) | Self::AttributeDescending(name) => Some(name),
+            _ => None,
+        }
+    }
+
+    /// Returns the values of the attribute that gives the order; none without one.
+    pub(super) fn load_order_attributes(&self, ask: &QueryContext<'_>) -> QueryResult<TokenAttributes> {
+        match self.order_attribute() {
+            Some(name) => search_attributes::load_token_attributes(ask, name, &Self::ORDER_WORDS),
+            None => Ok(TokenAttributes::new()),
+        }
+    }
+}
+
 /// The sort key of a token.
 type TokenSortKey = (u64, u64, u64, i64);
 
@@ -130,11 +172,12 @@ pub(crate) fn order_document_page(
     ask: &QueryContext<'_>,
     found: &[IndexDocument],
     order: &HitOrder,
+    attributes: &TokenAttributes,
     ranks: &DocumentRanks,
     range: std::ops::Range<usize>,
 ) -> QueryResult<DocumentList> {
     ask.go_on()?;
-    let places = DocumentPlaces::open_document_places(ask, found, order)?;
+    let places = DocumentPlaces::open_document_places(ask, found, order, attributes)?;
     let mut keyed: Vec<((u64, TokenSortKey), IndexDocument)> = Vec::with_capacity(found.len());
     for (&doc, rank) in found.iter().zip(ranks.iter()) {
         let key = (places.leading_sort_key(doc, order, rank), places.token_sort_key(doc));
@@ -218,7 +261,12 @@ struct DocumentPlaces {
 }
 
 impl DocumentPlaces {
-    fn open_document_places(ask: &QueryContext<'_>, found: &[IndexDocument], order: &HitOrder) -> QueryResult<Self> {
+    fn open_document_places(
+        ask: &QueryContext<'_>,
+        found: &[IndexDocument],
+        order: &HitOrder,
+        attributes: &TokenAttributes,
+    ) -> QueryResult<Self> {
         let times = DocumentTimes::open_document_times(ask.now)?;
         let by_gloss = *order == HitOrder::Gloss || found.iter().any(|doc| times.document_times(*doc).is_none());
         Ok(Self {
@@ -226,11 +274,7 @@ impl DocumentPlaces {
             sign: ask.now.open_row_column(RowField::Sign)?,
             times,
             signs: by_gloss.then(|| ask.known_signs()).transpose()?,
-            attribute_ranks: match order {
-                HitOrder::Attribute(name) => rank_by_attribute(ask, name, false)?,
-                HitOrder::AttributeDescending(name) => rank_by_attribute(ask, name, true)?,
-                _ => BTreeMap::new(),
-            },
+            attribute_ranks: rank_by_attribute(attributes, matches!(order, HitOrder::AttributeDescending(_))),
         })
     }
 
@@ -269,8 +313,7 @@ impl DocumentPlaces {
 
 /// Returns the rank of each token by the least of its values of an attribute, or by the greatest if `descending`: numbers
 /// before texts, in both directions.
-fn rank_by_attribute(ask: &QueryContext<'_>, name: &str, descending: bool) -> QueryResult<BTreeMap<i64, u64>> {
-    let attributes = search_attributes::load_token_attributes(ask, name)?;
+fn rank_by_attribute(attributes: &TokenAttributes, descending: bool) -> BTreeMap<i64, u64> {
     let compare = |a: &AttributeRow, b: &AttributeRow| {
         let by_value = match (a.number, b.number) {
             (Some(one), Some(other)) => one.total_cmp(&other),
@@ -296,7 +339,7 @@ fn rank_by_attribute(ask: &QueryContext<'_>, name: &str, descending: bool) -> Qu
     let ranked = (0..)
         .zip(groups)
         .flat_map(|(rank, group)| group.iter().map(move |(token, _)| (*token, rank)));
-    Ok(ranked.collect())
+    ranked.collect()
 }
 
 /// Maps a time to a number that sorts in the same order, also for times before zero.
@@ -309,6 +352,7 @@ pub(crate) fn collect_search_hits(
     ask: &QueryContext<'_>,
     docs: &[IndexDocument],
     scores: Option<&ExampleScores>,
+    attributes: &TokenAttributes,
 ) -> QueryResult<Vec<SearchHit>> {
     let ids = ask.now.open_row_column(RowField::Token)?;
     let mut hits = Vec::with_capacity(docs.len());
@@ -332,6 +376,7 @@ pub(crate) fn collect_search_hits(
                 });
             })?;
         }
+        let order_rows = attributes.get(&token).into_iter().flatten();
         hits.push(SearchHit {
             token,
             gloss: row.gloss,
@@ -341,6 +386,7 @@ pub(crate) fn collect_search_hits(
             end_us: row.end_us,
             origin: row.origin,
             score: scores.map(|scores| scores.document_similarity(*doc)),
+            order_values: order_rows.map(|row| row.text.clone()).collect(),
             components,
             opinions,
         });

@@ -40,6 +40,7 @@ use crate::Corpus;
 use crate::db::signs::{self, TokenRow};
 use crate::db::stored_search as rows;
 use crate::error::{CorpusError, CorpusResult, WrongQuery};
+use crate::forms::FormSelection;
 use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
 
 pub use crate::db::stored_search::search_answers::OpinionStanding;
@@ -136,6 +137,21 @@ impl Corpus {
         let ids: Vec<i64> = answer.hits.iter().map(|hit| hit.token).collect();
         let tokens = signs::load_token_rows(self.store.read_connection(), &ids)?;
         Ok(tokens.into_values().collect())
+    }
+
+    /// Returns the selection of the tokens that a query finds; without one of all signs.
+    ///
+    /// # Errors
+    /// Those of [`search_tokens`](Self::search_tokens).
+    pub(crate) fn select_forms(
+        &mut self,
+        query: Option<&str>,
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<FormSelection> {
+        Ok(match query {
+            Some(query) => FormSelection::Tokens(self.tokens_found(query, progress)?),
+            None => FormSelection::All,
+        })
     }
 
     /// Evaluates a query with `ask` on one state of the corpus.
@@ -271,8 +287,9 @@ fn answer_query(ask: &QueryContext<'_>, query: &TokenQuery, options: &SearchOpti
     let end = options
         .limit
         .map_or(usize::MAX, |limit| options.offset.saturating_add(limit));
-    let page = answer::order_document_page(ask, &docs, &options.order, &ranks, options.offset..end)?;
-    let hits = answer::collect_search_hits(ask, &page, scores.as_ref())?;
+    let attributes = options.order.load_order_attributes(ask)?;
+    let page = answer::order_document_page(ask, &docs, &options.order, &attributes, &ranks, options.offset..end)?;
+    let hits = answer::collect_search_hits(ask, &page, scores.as_ref(), &attributes)?;
     let (facets, facets_left_out) = if options.facets {
         search_facets::count_document_facets(ask, &docs, options.facet_values)?
     } else {

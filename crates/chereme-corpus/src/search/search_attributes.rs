@@ -86,19 +86,26 @@ fn meant_attribute_names(all: &[String], name: &str) -> Vec<String> {
 /// The values of an attribute by token.
 pub(super) type TokenAttributes = BTreeMap<i64, Vec<Rc<AttributeRow>>>;
 
-/// Returns the values of the attribute of this name, by token.
+/// Returns the values of the attribute of this name, by token; `other_words` could have stood there, too.
 ///
 /// # Errors
 /// [`CorpusError::Wrong`] if no entry of the corpus has an attribute of this name.
-pub(super) fn load_token_attributes(ask: &QueryContext<'_>, name: &str) -> QueryResult<TokenAttributes> {
+pub(super) fn load_token_attributes(
+    ask: &QueryContext<'_>,
+    name: &str,
+    other_words: &[&str],
+) -> QueryResult<TokenAttributes> {
     let all = stored_attributes::list_attribute_names(ask.connection)?;
     let names = meant_attribute_names(&all, name);
     if names.is_empty() {
-        let near = did_you_mean(nearest_candidate(name, all.iter().map(String::as_str)));
+        let words = all.iter().map(String::as_str).chain(other_words.iter().copied());
+        let near = did_you_mean(nearest_candidate(name, words));
         let error = CorpusError::from_wrong_message(format!("there is no field or attribute {name:?}{near}"));
-        return Err(QueryFailure::Other(
-            error.with_error_place(name).with_advice(name_attributes(&all)),
-        ));
+        let advice = match other_words {
+            [] => name_attributes(&all),
+            words => format!("write {}, or an attribute; {}", words.join(", "), name_attributes(&all)),
+        };
+        return Err(QueryFailure::Other(error.with_error_place(name).with_advice(advice)));
     }
     Ok(stored_attributes::attributes_by_token(ask.connection, &names)?)
 }

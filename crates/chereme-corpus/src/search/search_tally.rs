@@ -247,7 +247,7 @@ fn group_documents_by_attribute(
     found: &[IndexDocument],
     name: &str,
 ) -> QueryResult<Vec<(String, DocumentList)>> {
-    let attributes = search_attributes::load_token_attributes(ask, name)?;
+    let attributes = search_attributes::load_token_attributes(ask, name, &[])?;
     let ids = ask.now.open_row_column(RowField::Token)?;
     let mut by_text: BTreeMap<&str, DocumentList> = BTreeMap::new();
     let mut numbered: Vec<(f64, IndexDocument)> = Vec::new();

@@ -205,10 +205,7 @@ impl Corpus {
                 .with_error_place(count.to_string())
                 .with_advice("1000 are usual"));
         }
-        let tokens = match &options.query {
-            Some(query) => Some(self.tokens_found(query, progress)?),
-            None => None,
-        };
+        let selection = self.select_forms(options.query.as_deref(), progress)?;
         let named: Vec<String> = options
             .of
             .iter()
@@ -229,7 +226,7 @@ impl Corpus {
             let more: Vec<String> = more.cloned().collect();
             wanted.extend(more);
         }
-        let mut forms = self.load_sign_forms(&wanted, tokens.as_deref(), &options.scope, progress)?;
+        let mut forms = self.load_sign_forms(&wanted, &selection, &options.scope, progress)?;
         // Shuffles with one seed give one result only if the entries are always in one order.
         forms.rows.sort();
         // Without named fields, all that were loaded make a form.

@@ -1,15 +1,14 @@
 //! Measures of each sign of a lexicon: neighbours, homonyms, families, probability of its values, how often it is used.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
-use std::io::Write;
 use std::path::Path;
 
-use chereme_analysis::statistics::{RowNeighbours, UndefinedStatistic, count_row_neighbours};
+use chereme_analysis::statistics::{RowNeighbours, UndefinedStatistic, count_row_neighbours, sorted_quantile};
 use chereme_sign::SignComponent;
 use serde::Serialize;
 
+use super::stats_table::write_table_rows;
 use crate::Corpus;
-use crate::atomic_write;
 use crate::db::stored_attributes::{self, AttributeRow, MEASURE_PREFIX};
 use crate::error::{CorpusError, CorpusResult};
 use crate::forms::{EmptyCellTreatment, FormField, FormSource, SignForm, named_fields, number_form_cells};
@@ -53,7 +52,7 @@ pub struct SignMeasureOptions {
     pub fields: Vec<String>,
     /// The treatment of an empty cell.
     pub empty: EmptyCellTreatment,
-    /// The tokens whose signs are measured, as a query.
+    /// The tokens whose signs are measured among each other, as a query.
     pub query: Option<String>,
     /// The lexicons whose signs are measured.
     pub scope: LexiconScope,
@@ -87,6 +86,11 @@ pub struct SignMeasures {
     pub within: usize,
     /// The fields that make a form.
     pub fields: Vec<String>,
+    /// The treatment of an empty cell.
+    pub empty: EmptyCellTreatment,
+    /// The query whose signs were measured among each other.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub query: Option<String>,
     /// The number of entries that were found.
     pub entries: usize,
     /// The mean of the densities.
@@ -125,7 +129,7 @@ pub struct MeasuredSign {
     pub pair_probability: Option<f64>,
     /// How many captured tokens the corpus has of it; tokens of the two hands that overlap count once.
     pub tokens: u64,
-    /// How many signers these are of.
+    /// How many known signers these are of.
     pub signers: u64,
 }
 
@@ -140,12 +144,9 @@ impl Corpus {
         options: &SignMeasureOptions,
         progress: &mut ProgressReceiver<'_>,
     ) -> CorpusResult<SignMeasures> {
-        let tokens = match &options.query {
-            Some(query) => Some(self.tokens_found(query, progress)?),
-            None => None,
-        };
+        let selection = self.select_forms(options.query.as_deref(), progress)?.select_signs();
         let wanted = named_fields(&options.fields);
-        let forms = self.load_sign_forms(&wanted, tokens.as_deref(), &options.scope, progress)?;
+        let forms = self.load_sign_forms(&wanted, &selection, &options.scope, progress)?;
         let entries = forms.rows.len();
         let mut rows = forms.rows;
         if options.empty == EmptyCellTreatment::Unknown {
@@ -164,12 +165,11 @@ impl Corpus {
             definition: options.definition,
             within: options.within,
             fields: forms.fields.into_iter().map(|field| field.name).collect(),
+            empty: options.empty,
+            query: options.query.clone(),
             entries,
             mean_density: densities.iter().sum::<f64>() / densities.len().max(1) as f64,
-            median_density: match densities.len() {
-                0 => 0.0,
-                count => f64::midpoint(densities[(count - 1) / 2], densities[count / 2]),
-            },
+            median_density: sorted_quantile(&densities, 0.5).unwrap_or_default(),
             without_neighbour: densities.iter().filter(|density| **density == 0.0).count(),
             signs,
         })
@@ -181,11 +181,9 @@ impl Corpus {
     /// # Errors
     /// Fails if the corpus cannot be written.
     pub fn store_sign_measures(&mut self, measures: &SignMeasures) -> CorpusResult<usize> {
-        let fields = measures.fields.join(", ");
-        let (definition, within) = (measures.definition.definition_name(), measures.within);
         self.store.run_store_operation(|connection| {
             let day = stored_attributes::current_day(connection)?;
-            let origin = format!("{day}, {definition}, at most {within} of {fields}");
+            let origin = format!("{day}, {}", measures.definition_text());
             for sign in &measures.signs {
                 let mut rows = measure_rows(sign);
                 rows.push(AttributeRow {
@@ -202,6 +200,21 @@ impl Corpus {
 }
 
 impl SignMeasures {
+    /// Returns how the signs were measured, as it is stored with each.
+    fn definition_text(&self) -> String {
+        let empty = match self.empty {
+            EmptyCellTreatment::Value => "an empty cell is a value",
+            EmptyCellTreatment::Unknown => "an empty cell is unknown",
+        };
+        let among = self.query.as_ref().map(|query| format!(", among {query}"));
+        let (definition, fields) = (self.definition.definition_name(), self.fields.join(", "));
+        let within = self.within;
+        format!(
+            "{definition}, at most {within} of {fields}, {empty}{}",
+            among.unwrap_or_default()
+        )
+    }
+
     /// Writes the measures as a table of commas, one line for each sign, with a column for the pairs of each field.
     ///
     /// # Errors
@@ -220,9 +233,7 @@ impl SignMeasures {
             "signers",
         ];
         titles.extend(more_titles.map(str::to_owned));
-        let mut writer = ::csv::Writer::from_writer(Vec::new());
-        let fault = |error: ::csv::Error| CorpusError::from_wrong_message(error.to_string());
-        writer.write_record(&titles).map_err(fault)?;
+        let mut rows = vec![titles];
         let number = |value: Option<f64>| value.map(|share| share.to_string()).unwrap_or_default();
         for sign in &self.signs {
             let mut cells = vec![sign.gloss.clone(), sign.density.to_string(), sign.pairs.to_string()];
@@ -237,15 +248,9 @@ impl SignMeasures {
                 sign.tokens.to_string(),
                 sign.signers.to_string(),
             ]);
-            writer.write_record(&cells).map_err(fault)?;
+            rows.push(cells);
         }
-        let written = writer.into_inner();
-        let bytes = written.map_err(|error| CorpusError::from_wrong_message(error.to_string()))?;
-        atomic_write::write_atomically(to, force, |out| {
-            out.write_all(&bytes)
-                .map_err(|error| CorpusError::from_file_failure(to, error))
-        })
-        .map(drop)
+        write_table_rows(rows, to, force)
     }
 }
 

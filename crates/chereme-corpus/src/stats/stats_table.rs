@@ -11,6 +11,22 @@ use crate::error::{CorpusError, CorpusResult};
 /// The most cells of a cross table that is written.
 const MAX_CROSS_TABLE_CELLS: usize = 1_000_000;
 
+/// Writes rows with commas between their cells; a file of this name is replaced only with `force`.
+pub(super) fn write_table_rows(rows: Vec<Vec<String>>, to: &Path, force: bool) -> CorpusResult<()> {
+    let mut writer = ::csv::Writer::from_writer(Vec::new());
+    let fault = |error: ::csv::Error| CorpusError::from_wrong_message(error.to_string());
+    for row in rows {
+        writer.write_record(row).map_err(fault)?;
+    }
+    let written = writer.into_inner();
+    let bytes = written.map_err(|error| CorpusError::from_wrong_message(error.to_string()))?;
+    atomic_write::write_atomically(to, force, |out| {
+        out.write_all(&bytes)
+            .map_err(|error| CorpusError::from_file_failure(to, error))
+    })
+    .map(drop)
+}
+
 impl LexiconStatistics {
     /// Writes a table of commas: the cross table of two fields, the values of one field, the exceptions to the
     /// conditions on the hands, or the overview of the fields, the first of these that was asked for.
@@ -25,18 +41,7 @@ impl LexiconStatistics {
             (None, None, Some(it)) => battison_exceptions_table(it),
             (None, None, None) => self.overview_table(),
         };
-        let mut writer = ::csv::Writer::from_writer(Vec::new());
-        let fault = |error: ::csv::Error| CorpusError::from_wrong_message(error.to_string());
-        for row in rows {
-            writer.write_record(row).map_err(fault)?;
-        }
-        let written = writer.into_inner();
-        let bytes = written.map_err(|error| CorpusError::from_wrong_message(error.to_string()))?;
-        atomic_write::write_atomically(to, force, |out| {
-            out.write_all(&bytes)
-                .map_err(|error| CorpusError::from_file_failure(to, error))
-        })
-        .map(drop)
+        write_table_rows(rows, to, force)
     }
 
     fn overview_table(&self) -> Vec<Vec<String>> {

@@ -604,6 +604,34 @@ fn stored_measures_are_attributes_that_outlive_the_table() {
         .map(|row| format!("{} {}", row.value, row.total))
         .collect();
     assert_eq!(counts, ["1 2", "2 1"]);
+    let hit = corpus
+        .search_tokens(
+            "gloss=B",
+            &crate::SearchOptions {
+                order: crate::HitOrder::order_from_word("-density"),
+                ..crate::SearchOptions::default()
+            },
+        )
+        .expect("found");
+    assert_eq!(hit.hits[0].order_values, ["2"]);
+    let typo = crate::SearchOptions {
+        order: crate::HitOrder::order_from_word("durration"),
+        ..crate::SearchOptions::default()
+    };
+    let error = corpus.search_tokens("", &typo).expect_err("no such order");
+    assert!(error.to_string().contains("did you mean \"duration\"?"), "{error}");
+    // Signs that a query finds are measured among each other.
+    let among = SignMeasureOptions {
+        query: Some("frequency>7".to_owned()),
+        ..options
+    };
+    let measures = measured(&mut corpus, &among);
+    let counted: Vec<(&str, u64)> = measures
+        .signs
+        .iter()
+        .map(|sign| (sign.gloss.as_str(), sign.density))
+        .collect();
+    assert_eq!(counted, [("B", 1), ("C", 1)]);
     // The table comes again with another frequency; measures are not its to remove.
     let file = folder.path().join("t.csv");
     std::fs::write(&file, table.replace(",9", ",99")).expect("written");

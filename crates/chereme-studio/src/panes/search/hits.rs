@@ -232,6 +232,7 @@ mod tests {
             end_us: Some(2_000_000),
             origin: chereme_corpus::RecordOrigin::Captured,
             score: None,
+            order_values: Vec::new(),
             components: BTreeMap::new(),
             opinions: Vec::new(),
         }
