@@ -19,6 +19,7 @@ mod draw;
 mod faults;
 mod table;
 mod vectors;
+mod vectors_table;
 mod walk;
 
 use std::error::Error;
@@ -49,7 +50,7 @@ fn main() -> Result<()> {
         ["vectors", file, paths @ ..] if !paths.is_empty() => {
             let stage = |path: &&str| Ok(((*path).to_owned(), bodies::stage(Path::new(path))?));
             let bodies = paths.iter().map(stage).collect::<Result<Vec<_>>>()?;
-            vectors::print(Path::new(file), &bodies)
+            vectors_table::print_vector_table(Path::new(file), &bodies)
         }
         ["list", folder, body] => table::list(Path::new(folder), body),
         ["draw", "random", count, seed, folder, body, out] => {

@@ -18,79 +18,67 @@ use serde_json::Value;
 
 type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
 
-/// What is compared: its name, its unit, the tolerance with its reason, and the least share within it.
+/// What is compared: its name, its unit, and the tolerance with its reason.
 pub(crate) struct VectorGroup {
     pub(crate) name: &'static str,
-    unit: &'static str,
-    tolerance: f64,
-    reason: &'static str,
-    #[allow(dead_code, reason = "only the test asks for it")]
-    pub(crate) least_share: f64,
+    pub(crate) unit: &'static str,
+    pub(crate) tolerance: f64,
+    pub(crate) reason: &'static str,
 }
 
-const fn group(
-    name: &'static str,
-    unit: &'static str,
-    tolerance: f64,
-    reason: &'static str,
-    least_share: f64,
-) -> VectorGroup {
+const fn vector_group(name: &'static str, unit: &'static str, tolerance: f64, reason: &'static str) -> VectorGroup {
     VectorGroup {
         name,
         unit,
         tolerance,
         reason,
-        least_share,
     }
 }
 
-const HAND_AXIS: &str = "the reference's knuckles read up to 18° off its own rule";
-const LIMITS: &str = "the same; wrist and forearm have limits here";
-const LANDMARKS: &str = "landmarks, arms and hands differ between bodies";
-const FROM_LANDMARK: &str = "from the landmark; hands are of different sizes";
+const HAND_AXIS_REASON: &str = "the reference's knuckles read up to 18° off its own rule";
+const JOINT_LIMITS_REASON: &str = "the same; wrist and forearm have limits here";
+const OTHER_BODY_REASON: &str = "landmarks, arms and hands differ between bodies";
+const FROM_LANDMARK_REASON: &str = "from the landmark; hands are of different sizes";
 
 /// The groups, in the order of the table.
-const VECTOR_GROUPS: [VectorGroup; 22] = [
-    group("palm as asked, one hand", "°", 20.0, HAND_AXIS, 0.90),
-    group("palm reached, one hand", "°", 20.0, LIMITS, 0.58),
-    group("fingers reached, one hand", "°", 20.0, LIMITS, 0.52),
-    group("palm reached, left hand, mirrored", "°", 20.0, LIMITS, 0.63),
-    group("palm reached, left hand, parallel", "°", 20.0, LIMITS, 0.45),
-    group("palm reached, half-way direction", "°", 25.0, LIMITS, 0.82),
-    group("palm reached, half-way palm", "°", 25.0, LIMITS, 0.65),
-    group("place in the face, no mark", "sw", 0.2, FROM_LANDMARK, 0.63),
-    group("place in the face, close", "sw", 0.2, FROM_LANDMARK, 0.48),
-    group("place in the face, touch", "sw", 0.2, FROM_LANDMARK, 0.74),
-    group("place before trunk and head, no mark", "sw", 0.2, LANDMARKS, 0.60),
-    group("place before trunk and head, close", "sw", 0.2, LANDMARKS, 0.77),
-    group("place at the trunk, touch", "sw", 0.2, LANDMARKS, 0.12),
-    group(
+pub(crate) const VECTOR_GROUPS: [VectorGroup; 22] = [
+    vector_group("palm as asked, one hand", "°", 20.0, HAND_AXIS_REASON),
+    vector_group("palm reached, one hand", "°", 20.0, JOINT_LIMITS_REASON),
+    vector_group("fingers reached, one hand", "°", 20.0, JOINT_LIMITS_REASON),
+    vector_group("palm reached, left hand, mirrored", "°", 20.0, JOINT_LIMITS_REASON),
+    vector_group("palm reached, left hand, parallel", "°", 20.0, JOINT_LIMITS_REASON),
+    vector_group("palm reached, half-way direction", "°", 25.0, JOINT_LIMITS_REASON),
+    vector_group("palm reached, half-way palm", "°", 25.0, JOINT_LIMITS_REASON),
+    vector_group("place in the face, no mark", "sw", 0.2, FROM_LANDMARK_REASON),
+    vector_group("place in the face, close", "sw", 0.2, FROM_LANDMARK_REASON),
+    vector_group("place in the face, touch", "sw", 0.2, FROM_LANDMARK_REASON),
+    vector_group("place before trunk and head, no mark", "sw", 0.2, OTHER_BODY_REASON),
+    vector_group("place before trunk and head, close", "sw", 0.2, OTHER_BODY_REASON),
+    vector_group("place at the trunk, touch", "sw", 0.2, OTHER_BODY_REASON),
+    vector_group(
         "place, arm extended",
         "sw",
         0.2,
         "the arm is truly extended here, to .93 there",
-        0.01,
     ),
-    group("place between two", "sw", 0.2, LANDMARKS, 0.79),
-    group("place, both hands", "sw", 0.2, LANDMARKS, 0.41),
-    group("place, hands together", "sw", 0.2, LANDMARKS, 0.36),
-    group("place, the hand at the other hand", "sw", 0.2, LANDMARKS, 0.37),
-    group("place, the other hand under it", "sw", 0.2, LANDMARKS, 0.90),
-    group(
+    vector_group("place between two", "sw", 0.2, OTHER_BODY_REASON),
+    vector_group("place, both hands", "sw", 0.2, OTHER_BODY_REASON),
+    vector_group("place, hands together", "sw", 0.2, OTHER_BODY_REASON),
+    vector_group("place, the hand at the other hand", "sw", 0.2, OTHER_BODY_REASON),
+    vector_group("place, the other hand under it", "sw", 0.2, OTHER_BODY_REASON),
+    vector_group(
         "joints of fingers",
         "°",
         20.0,
         "rest postures of fingers differ between bodies",
-        0.27,
     ),
-    group(
+    vector_group(
         "straight movements, direction",
         "°",
         15.0,
         "the reference is exact to 2°",
-        0.89,
     ),
-    group("written times", "share", 0.02, "one frame of 60 a second", 0.76),
+    vector_group("written times", "share", 0.02, "one frame of 60 a second"),
 ];
 
 /// The differences of a group, each with the key of its sign, in the group's unit.
@@ -100,28 +88,15 @@ pub(crate) struct VectorDifferences {
 }
 
 impl VectorDifferences {
-    /// Returns the share of the signs whose difference is within the tolerance.
-    #[allow(dead_code, reason = "only the test asks for it")]
-    pub(crate) fn share_within(&self) -> f64 {
-        self.count_within() as f64 / self.differences.len().max(1) as f64
-    }
-
-    fn sorted_differences(&self) -> Vec<(String, f64)> {
+    /// Returns the differences, each with the key of its sign, the least first.
+    pub(crate) fn sorted_differences(&self) -> Vec<(String, f64)> {
         let mut sorted = self.differences.clone();
         sorted.sort_by(|a, b| a.1.total_cmp(&b.1));
         sorted
     }
 
-    /// Returns the median, the largest difference, and the number within the tolerance.
-    fn table_cell(&self) -> String {
-        let sorted = self.sorted_differences();
-        let size = |index: usize| sorted.get(index).map_or(0.0, |(_, off)| *off);
-        let digits = if self.group.unit == "°" { 0 } else { 2 };
-        let [median, worst] = [size(sorted.len() / 2), size(sorted.len().saturating_sub(1))];
-        format!("{median:.digits$} · {worst:.digits$} · {}", self.count_within())
-    }
-
-    fn count_within(&self) -> usize {
+    /// Returns how many are within the tolerance of the group.
+    pub(crate) fn count_within(&self) -> usize {
         let within = self.differences.iter().filter(|(_, off)| *off <= self.group.tolerance);
         within.count()
     }
@@ -142,38 +117,6 @@ struct SeenHand {
     along: DVec3,
     normal: DVec3,
     palm: DVec3,
-}
-
-/// Prints the table of all bodies as Markdown, and the signs of each group that differ most.
-#[allow(
-    dead_code,
-    clippy::print_stdout,
-    clippy::print_stderr,
-    reason = "only the example prints"
-)]
-pub(crate) fn print(file: &Path, bodies: &[(String, MovementMaterial)]) -> Result<()> {
-    let tables = bodies.iter().map(|(_, stage)| compare_vectors(file, stage, 1));
-    let tables = tables.collect::<Result<Vec<_>>>()?;
-    let names: Vec<&str> = bodies.iter().map(|(name, _)| name.as_str()).collect();
-    println!("| group | n | {} | tolerance, and its reason |", names.join(" | "));
-    println!("|---|--:|{}---|", "--:|".repeat(bodies.len()));
-    for (number, group) in VECTOR_GROUPS.iter().enumerate() {
-        let rows = tables.iter().map(|table| &table[number]);
-        let cells: Vec<String> = rows.clone().map(VectorDifferences::table_cell).collect();
-        let count = tables[0][number].differences.len();
-        let (tolerance, unit, reason) = (group.tolerance, group.unit, group.reason);
-        println!(
-            "| {} | {count} | {} | {tolerance} {unit}: {reason} |",
-            group.name,
-            cells.join(" | ")
-        );
-        for row in rows {
-            let worst = row.sorted_differences().into_iter().rev().take(8);
-            let worst: Vec<String> = worst.map(|(key, off)| format!("{key} {off:.2}")).collect();
-            eprintln!("{}: {}", group.name, worst.join(", "));
-        }
-    }
-    Ok(())
 }
 
 /// Compares one sign out of `every` with the reference.
@@ -223,7 +166,7 @@ impl<'a> VectorComparison<'a> {
     }
 
     /// Performs a sign with this manual part; `attributes` are those of the sign.
-    fn perform(&self, attributes: &str, manual: &str, whole: bool) -> Result<Clip> {
+    fn perform_manual(&self, attributes: &str, manual: &str, whole: bool) -> Result<Clip> {
         let sign = &read_sign(attributes, manual)?;
         Ok(match whole {
             true => self.performer.perform_sign(sign)?,
@@ -233,7 +176,7 @@ impl<'a> VectorComparison<'a> {
 
     /// Returns the hands, right and left, in the first posture of a sign.
     fn first_posture(&self, manual: &str) -> Result<[SeenHand; 2]> {
-        let model = self.perform("", manual, false)?.model_pose(0);
+        let model = self.perform_manual("", manual, false)?.model_pose(0);
         let seen = [BodySide::Right, BodySide::Left].map(|side| self.seen_hand(side, &model));
         let [Some(right), Some(left)] = seen else {
             return Err("the body has no two hands with fingers".into());
@@ -260,23 +203,23 @@ impl<'a> VectorComparison<'a> {
             let along = extended.parse::<SpatialDirection>()?.spatial_direction_vector();
             let asked = orientation::palm_direction_vector(along, palm.parse::<CompassDirection>()?.compass_angle());
             let [right, _] = self.first_posture(&manual_part("", &flat_hand(extended, palm), ""))?;
-            let [fingers, normal] = [vector(&value["f"]), vector(&value["n"])];
-            let asked = degrees(asked.into(), normal);
+            let [fingers, normal] = [vector_from_json(&value["f"]), vector_from_json(&value["n"])];
+            let asked = degrees_between(asked.into(), normal);
             self.add_difference("palm as asked, one hand", key, asked);
-            self.add_difference("palm reached, one hand", key, degrees(right.normal, normal));
-            self.add_difference("fingers reached, one hand", key, degrees(right.along, fingers));
+            self.add_difference("palm reached, one hand", key, degrees_between(right.normal, normal));
+            self.add_difference("fingers reached, one hand", key, degrees_between(right.along, fingers));
         }
         let sections = [
             (
                 "a_both_lr_left_hand",
                 "palm reached, left hand, mirrored",
-                LEFT_RIGHT,
+                LEFT_RIGHT_ATTRIBUTES,
                 1,
             ),
             (
                 "a_both_parallel_left_hand",
                 "palm reached, left hand, parallel",
-                PARALLEL,
+                PARALLEL_ATTRIBUTES,
                 1,
             ),
             ("a_half_way_direction", "palm reached, half-way direction", "", 0),
@@ -286,7 +229,11 @@ impl<'a> VectorComparison<'a> {
             for (key, value) in self.sampled_section(section) {
                 let (extended, palm) = key.split_once('_').ok_or("a key without a palm")?;
                 let seen = self.first_posture(&manual_part(symmetry, &flat_hand(extended, palm), ""))?;
-                self.add_difference(group, key, degrees(seen[hand].normal, vector(&value["n"])));
+                self.add_difference(
+                    group,
+                    key,
+                    degrees_between(seen[hand].normal, vector_from_json(&value["n"])),
+                );
             }
         }
         Ok(())
@@ -333,7 +280,11 @@ impl<'a> VectorComparison<'a> {
             } else {
                 "place, both hands"
             };
-            let symmetry = if symmetry == "lr" { LEFT_RIGHT } else { PARALLEL };
+            let symmetry = if symmetry == "lr" {
+                LEFT_RIGHT_ATTRIBUTES
+            } else {
+                PARALLEL_ATTRIBUTES
+            };
             let place = body_place(location, "", contact, "");
             self.compare_palm([group, key], [symmetry, &flat_hand("o", "l"), &place], value)?;
         }
@@ -347,23 +298,26 @@ impl<'a> VectorComparison<'a> {
             };
             let place = format!(
                 "<handconstellation{}>{site}</handconstellation>",
-                attribute("contact", contact)
+                xml_attribute("contact", contact)
             );
             self.compare_palm(
                 ["place, hands together", key],
-                [LEFT_RIGHT, &keyed_hand(hand), &place],
+                [LEFT_RIGHT_ATTRIBUTES, &keyed_hand(hand), &place],
                 value,
             )?;
         }
         for (key, value) in self.sampled_section("b_hand_of_other_hand") {
             let (part, contact) = key.split_once('_').unwrap_or((key, ""));
-            let touched = format!("<location_hand location=\"{part}\"{}/>", attribute("contact", contact));
+            let touched = format!(
+                "<location_hand location=\"{part}\"{}/>",
+                xml_attribute("contact", contact)
+            );
             let held = body_place("stomach", "", "", "");
             let place = format!("<split_location>{touched}{held}</split_location>");
             let seen = self.first_posture(&manual_part("", SPLIT_HANDS, &place))?;
             let groups = ["place, the hand at the other hand", "place, the other hand under it"];
             for (n, (group, palm)) in groups.into_iter().zip(["palm", "left_palm"]).enumerate() {
-                self.add_difference(group, key, seen[n].palm.distance(vector(&value[palm])));
+                self.add_difference(group, key, seen[n].palm.distance(vector_from_json(&value[palm])));
             }
         }
         Ok(())
@@ -377,13 +331,17 @@ impl<'a> VectorComparison<'a> {
         value: &Value,
     ) -> Result<()> {
         let manual = manual_part(attributes, hand, place);
-        let clip = self.perform("", &manual, false)?;
+        let clip = self.perform_manual("", &manual, false)?;
         let model = clip.model_pose(0);
         let right = self
             .seen_hand(BodySide::Right, &model)
             .ok_or("the body has no right hand with fingers")?;
         let between = self.landmark_difference(&manual, key, &model).unwrap_or_default();
-        self.add_difference(group, key, right.palm.distance(vector(&value["palm"]) + between));
+        self.add_difference(
+            group,
+            key,
+            right.palm.distance(vector_from_json(&value["palm"]) + between),
+        );
         Ok(())
     }
 
@@ -407,7 +365,7 @@ impl<'a> VectorComparison<'a> {
         let anatomy = &self.stage.anatomy;
         let skeleton = self.stage.clip.clip_skeleton();
         let here = anatomy.landmark_place_position(skeleton, model, &site.landmark)?;
-        Some(anatomy.body_frame(model)?.to_body(here) + DVec3::from(site.offset) - vector(there))
+        Some(anatomy.body_frame(model)?.to_body(here) + DVec3::from(site.offset) - vector_from_json(there))
     }
 
     /// Compares bends at base, middle and end joints: the worst of a hand's twelve.
@@ -418,12 +376,14 @@ impl<'a> VectorComparison<'a> {
                 continue;
             };
             let [shape, thumb, bend] = [
-                attribute("handshape", shape),
-                attribute("thumbpos", thumb),
-                attribute("mainbend", bend),
+                xml_attribute("handshape", shape),
+                xml_attribute("thumbpos", thumb),
+                xml_attribute("mainbend", bend),
             ];
             let hand = format!("<handconfig{shape}{thumb}{bend}/>{}", aim_attributes("u", "l"));
-            let model = self.perform("", &manual_part("", &hand, ""), false)?.model_pose(0);
+            let model = self
+                .perform_manual("", &manual_part("", &hand, ""), false)?
+                .model_pose(0);
             let mut worst = 0.0_f64;
             for (digit, letter) in HandDigit::ALL_HAND_DIGITS.into_iter().skip(1).zip(["I", "M", "R", "P"]) {
                 let Some(bends) = self.finger_bends(digit, &model) else {
@@ -456,7 +416,11 @@ impl<'a> VectorComparison<'a> {
         let (along, palm) = (anatomy.hand_direction(side, model)?, anatomy.palm_normal(side, model)?);
         let bones = [middle - base, end - middle, tip - end];
         let raised = bones[0].dot(palm).atan2(bones[0].dot(along)).to_degrees();
-        Some([raised, degrees(bones[0], bones[1]), degrees(bones[1], bones[2])])
+        Some([
+            raised,
+            degrees_between(bones[0], bones[1]),
+            degrees_between(bones[1], bones[2]),
+        ])
     }
 
     fn compare_movements(&mut self) -> Result<()> {
@@ -464,8 +428,11 @@ impl<'a> VectorComparison<'a> {
             let Some(["m", direction, size]) = key.split('_').collect::<Vec<_>>().first_chunk::<3>().copied() else {
                 continue;
             };
-            let motion = format!("<directedmotion direction=\"{direction}\"{}/>", attribute("size", size));
-            let clip = self.perform("", &manual_part("", &flat_hand("o", "d"), &motion), true)?;
+            let motion = format!(
+                "<directedmotion direction=\"{direction}\"{}/>",
+                xml_attribute("size", size)
+            );
+            let clip = self.perform_manual("", &manual_part("", &flat_hand("o", "d"), &motion), true)?;
             let ends =
                 [0, clip.clip_frame_count() - 1].map(|frame| self.seen_hand(BodySide::Right, &clip.model_pose(frame)));
             let [Some(start), Some(end)] = ends else { continue };
@@ -473,7 +440,7 @@ impl<'a> VectorComparison<'a> {
             self.add_difference(
                 "straight movements, direction",
                 key,
-                degrees(end.palm - start.palm, written.into()),
+                degrees_between(end.palm - start.palm, written.into()),
             );
         }
         let motions = [
@@ -485,7 +452,7 @@ impl<'a> VectorComparison<'a> {
         ];
         for (begins, motion) in motions {
             let hand = flat_hand("o", "d");
-            let usual = clip_seconds(&self.perform("", &manual_part("", &hand, motion), true)?);
+            let usual = clip_seconds(&self.perform_manual("", &manual_part("", &hand, motion), true)?);
             for (key, _) in self.sampled_section("e_nonmanual_and_times") {
                 let Some((name, number)) = key.strip_prefix(begins).and_then(|rest| rest.split_once('_')) else {
                     continue;
@@ -497,7 +464,7 @@ impl<'a> VectorComparison<'a> {
                     "duration" => factor,
                     _ => continue,
                 };
-                let clip = self.perform(&attribute(name, number), &manual_part("", &hand, motion), true)?;
+                let clip = self.perform_manual(&xml_attribute(name, number), &manual_part("", &hand, motion), true)?;
                 let lasts = clip_seconds(&clip);
                 self.add_difference("written times", key, (lasts / asked - 1.0).abs());
             }
@@ -528,14 +495,14 @@ const REFERENCE_GAPS: [[&str; 2]; 6] = [
     ["shouldertop", ""],
 ];
 
-const LEFT_RIGHT: &str = " both_hands=\"true\" lr_symm=\"true\"";
+const LEFT_RIGHT_ATTRIBUTES: &str = " both_hands=\"true\" lr_symm=\"true\"";
 /// Flat hands, the dominant one's palm on the other's.
 const SPLIT_HANDS: &str = concat!(
     r#"<split_handconfig><handconfig handshape="flat"/><handconfig handshape="flat"/></split_handconfig>"#,
     r#"<split_handconfig><handconfig extfidir="ol"/><handconfig extfidir="or"/></split_handconfig>"#,
     r#"<split_handconfig><handconfig palmor="d"/><handconfig palmor="u"/></split_handconfig>"#
 );
-const PARALLEL: &str = " both_hands=\"true\"";
+const PARALLEL_ATTRIBUTES: &str = " both_hands=\"true\"";
 const FACE_LOCATIONS: [&str; 19] = [
     "forehead",
     "eyebrows",
@@ -574,7 +541,7 @@ fn manual_part(attributes: &str, hand: &str, then: &str) -> String {
     format!("<sign_manual{attributes}>{hand}{then}</sign_manual>")
 }
 
-fn attribute(name: &str, value: &str) -> String {
+fn xml_attribute(name: &str, value: &str) -> String {
     match value {
         "" => String::new(),
         value => format!(" {name}=\"{value}\""),
@@ -589,7 +556,7 @@ fn flat_hand(extended: &str, palm: &str) -> String {
 fn aim_attributes(extended: &str, palm: &str) -> String {
     let aim = |name: &str, written: &str| {
         let (first, second) = written.split_once('-').unwrap_or((written, ""));
-        let second = attribute(&format!("second_{name}"), second);
+        let second = xml_attribute(&format!("second_{name}"), second);
         format!("<handconfig {name}=\"{first}\"{second}/>")
     };
     aim("extfidir", extended) + &aim("palmor", palm)
@@ -602,15 +569,15 @@ fn keyed_hand(key: &str) -> String {
 }
 
 fn body_place(location: &str, side: &str, contact: &str, more: &str) -> String {
-    let [side, contact] = [attribute("side", side), attribute("contact", contact)];
+    let [side, contact] = [xml_attribute("side", side), xml_attribute("contact", contact)];
     format!("<location_bodyarm location=\"{location}\"{side}{contact}{more}/>")
 }
 
-fn vector(value: &Value) -> DVec3 {
+fn vector_from_json(value: &Value) -> DVec3 {
     let part = |n: usize| value[n].as_f64().unwrap_or(f64::NAN);
     DVec3::new(part(0), part(1), part(2))
 }
 
-fn degrees(first: DVec3, second: DVec3) -> f64 {
+fn degrees_between(first: DVec3, second: DVec3) -> f64 {
     first.angle_between(second).to_degrees()
 }
