@@ -17,6 +17,14 @@ pub(crate) fn read_stdin_bytes() -> Result<Vec<u8>> {
     Ok(chereme_corpus::read_stream(io::stdin().lock(), Path::new("-"))?)
 }
 
+/// Reads all of a file, or of standard input for `-`.
+pub(crate) fn read_file_or_stdin(path: &Path) -> Result<Vec<u8>> {
+    if is_standard(path) {
+        return read_stdin_bytes();
+    }
+    Ok(std::fs::read(path).map_err(|error| CorpusError::from_file_failure(path, error))?)
+}
+
 /// Reads all of standard input as text.
 pub(crate) fn read_stdin_text() -> Result<String> {
     let text = String::from_utf8(read_stdin_bytes()?);

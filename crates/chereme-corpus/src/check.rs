@@ -16,7 +16,7 @@ use crate::address::message_names;
 use crate::db::stored_check as rows;
 use crate::db::stored_motion::to_hex_text;
 use crate::db::stored_search::{self as index_rows, SearchIndexState};
-use crate::db::{notations, seals, stored_recordings, stored_studies, stored_tiers, stored_tracks};
+use crate::db::{notations, people, seals, stored_recordings, stored_studies, stored_tiers, stored_tracks};
 use crate::error::{CorpusResult, DatabaseFailureCause};
 use crate::inventories;
 use crate::movement::{ChannelGroup, MotionTrack};
@@ -126,6 +126,8 @@ impl Corpus {
         looking.go_on("notation", "notations", looked)?;
         let looked = looking.check_tier_rules(connection);
         looking.go_on("tier", "recordings", looked)?;
+        let looked = looking.check_names_of_people(connection);
+        looking.go_on("signer", "people", looked)?;
         match self.store.check_history(looking.progress) {
             Ok(faults) => {
                 for fault in faults {
@@ -485,6 +487,25 @@ impl CheckRun<'_, '_> {
                         &format!("further overlapping annotations on {tier}: {more}"),
                         "ELAN allows no overlap within a tier; put one of each two on another tier".into(),
                     );
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Asks about names that two people have: a merge of two corpora leaves them so.
+    fn check_names_of_people(&mut self, connection: &Connection) -> CorpusResult<()> {
+        for person in people::load_people(connection)? {
+            for alias in &person.aliases {
+                if stored_recordings::find_signer(connection, alias)?.is_some_and(|other| other.id != person.id) {
+                    self.report.questions.push(CorpusFault {
+                        kind: "signer",
+                        place: format!("signer:{alias}"),
+                        message: format!("{alias:?} is another name of {}, and somebody else is called so", person.name),
+                        remedy: ErrorRemedy::command_remedy(
+                            "make them one: `chereme people CORPUS unite`, or take the name away: `chereme people CORPUS set NAME`",
+                        ),
+                    });
                 }
             }
         }

@@ -5,13 +5,11 @@ mod kept_movement;
 mod output_gate;
 mod unnamed;
 
-use std::fmt;
-use std::str::FromStr;
-
 use rusqlite::Connection;
 use serde::{Deserialize, Serialize};
 
 use crate::address::{self, CorpusAddress};
+pub use crate::db::consents::ConsentAudience;
 use crate::db::{consents, edits, stored_recordings};
 use crate::error::{CorpusError, CorpusResult};
 use crate::words::effect::OperationEffect;
@@ -20,54 +18,6 @@ pub use consent_gate::WithheldReason;
 pub(crate) use consent_gate::{PublishPermissions, TERMS_NOT_STATED, withheld_remedy};
 pub use output_gate::{OutputAudience, WithheldOutput};
 pub(crate) use output_gate::{OutputGate, nothing_passes_error};
-
-/// The people who may see something, from the fewest to the most.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum ConsentAudience {
-    /// Nobody beyond those who keep the corpus.
-    Nobody,
-    /// People who do research with the corpus.
-    Research,
-    /// Everybody.
-    Public,
-}
-
-impl ConsentAudience {
-    /// All of them, from the most people to the fewest.
-    pub const ALL_AUDIENCES: [Self; 3] = [Self::Public, Self::Research, Self::Nobody];
-
-    /// Returns its name, such as `public`.
-    #[must_use]
-    pub fn audience_name(self) -> &'static str {
-        match self {
-            Self::Public => "public",
-            Self::Research => "research",
-            Self::Nobody => "nobody",
-        }
-    }
-}
-
-impl fmt::Display for ConsentAudience {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.audience_name())
-    }
-}
-
-impl FromStr for ConsentAudience {
-    type Err = CorpusError;
-
-    fn from_str(text: &str) -> CorpusResult<Self> {
-        let named_audience = Self::ALL_AUDIENCES
-            .into_iter()
-            .find(|audience| audience.audience_name() == text.trim());
-        named_audience.ok_or_else(|| {
-            CorpusError::from_wrong_message(format!("{text:?} is no audience"))
-                .with_error_place(text)
-                .with_advice("write public, research or nobody")
-        })
-    }
-}
 
 /// The subject of a consent.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
@@ -177,8 +127,12 @@ impl Corpus {
     pub fn list_consents(&self) -> CorpusResult<Vec<ConsentRow>> {
         let connection = self.store.read_connection();
         let mut all = Vec::new();
+        let signers = stored_recordings::load_signer_rows(connection)?;
         for row in consents::of_signers(connection)? {
-            all.push(consent_row("signer", row)?);
+            // Nobody asks those who only annotate, but they may have said something.
+            if row.consent.is_some() || signers.iter().any(|signer| signer.id == row.id) {
+                all.push(consent_row("signer", row)?);
+            }
         }
         for row in consents::of_recordings(connection)? {
             if row.consent.is_some() {
@@ -253,6 +207,34 @@ fn consent_row(of: &'static str, row: consents::ConsentColumn) -> CorpusResult<C
         consent: PersonConsent::parse_consent_json(row.consent.as_deref(), &place)?,
         name: row.name,
     })
+}
+
+/// Gives a person the consent that two people have in common, before the other becomes the same person. If one of the two
+/// said nothing, the other's holds. Returns whether the person agrees to less than before.
+pub(crate) fn unite_consents(connection: &Connection, from: i64, into: i64) -> CorpusResult<bool> {
+    let rows = consents::of_signers(connection)?;
+    let read = |id: i64| {
+        let row = rows.iter().find(|row| row.id == id);
+        PersonConsent::parse_consent_json(row.and_then(|row| row.consent.as_deref()), &format!("signer:{id}"))
+    };
+    let (theirs, mine) = (read(from)?, read(into)?);
+    if theirs == PersonConsent::default() || theirs == mine {
+        return Ok(false);
+    }
+    // An unknown audience is the least of all.
+    let common = match mine == PersonConsent::default() {
+        true => theirs,
+        false => PersonConsent {
+            movement: mine.movement.min(theirs.movement),
+            annotation: mine.annotation.min(theirs.annotation),
+            derived: mine.derived.min(theirs.derived),
+            ..mine.clone()
+        },
+    };
+    consents::set_of_signer(connection, into, common.to_consent_json().as_deref())?;
+    let audiences = |consent: &PersonConsent| ConsentKind::ALL_CONSENT_KINDS.map(|kind| consent.audience_of_kind(kind));
+    let narrower = |(new, old): (Option<ConsentAudience>, Option<ConsentAudience>)| new < old;
+    Ok(audiences(&common).into_iter().zip(audiences(&mine)).any(narrower))
 }
 
 /// Returns the consent at an address, and its JSON.

@@ -7,6 +7,7 @@ use rusqlite::Connection;
 use crate::Corpus;
 use crate::address::{self, CorpusAddress, RowName};
 use crate::db::lexicons;
+use crate::db::people::{self, PersonContents};
 use crate::db::signs::{self, TokenRow};
 use crate::db::stored_columns::{ValueState, phase_name};
 use crate::db::stored_recordings::{self, RecordingRow};
@@ -87,8 +88,8 @@ pub struct SignDetails {
 /// Full details of a signer.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SignerDetails {
-    /// The row.
-    pub id: i64,
+    /// Names, attributes and what the person does in the corpus.
+    pub person: PersonContents,
     /// The recordings.
     pub recordings: Vec<RecordingRow>,
     /// The body's measures in metres, from the first recording with a body that can be measured.
@@ -220,7 +221,7 @@ impl Corpus {
             .take(5)
             .find_map(|track| track.track_anatomy(&reading).ok()?.anatomy_measures());
         Ok(SignerDetails {
-            id: signer.id,
+            person: people::load_person(&reading, signer.id)?,
             recordings: signer_recordings,
             measures,
         })

@@ -13,6 +13,7 @@ use crate::db::stored_columns::RecordOrigin;
 use crate::db::stored_recordings::{self, RecordingRow, SignerRow};
 use crate::error::{CorpusError, CorpusResult};
 use crate::inventories;
+use crate::people::{self, PersonChange};
 use crate::tokens;
 use crate::words::effect::OperationEffect;
 
@@ -40,6 +41,17 @@ pub struct SignerChange {
     pub handedness: Option<Option<BodySide>>,
     /// Remarks, or none.
     pub notes: Option<Option<String>>,
+}
+
+impl From<SignerChange> for PersonChange {
+    fn from(change: SignerChange) -> Self {
+        Self {
+            name: change.name,
+            handedness: change.handedness,
+            notes: change.notes,
+            ..Self::default()
+        }
+    }
 }
 
 /// A change of a sign; a missing field stays as it is.
@@ -98,36 +110,14 @@ impl Corpus {
     }
 
     /// Changes a signer. Tokens of the signer's recordings are derived again for a new handedness, and tiers with the
-    /// signer as participant get a new name.
+    /// signer as participant or annotator get a new name.
     ///
     /// # Errors
     /// Fails if the signer does not exist, or the name is taken.
     pub fn change_signer(&mut self, signer: &RowName, change: &SignerChange) -> CorpusResult<SignerRow> {
         self.store.run_store_operation(|connection| {
             let old = address::find_signer_by_name(connection, signer)?;
-            let mut row = old.clone();
-            if let Some(name) = &change.name {
-                row.name = require_trimmed_name(name, "signer")?;
-                let other = stored_recordings::find_signer(connection, &row.name)?;
-                if other.is_some_and(|other| other.id != row.id) {
-                    return Err(taken("signer", &row.name));
-                }
-            }
-            let hand = change
-                .handedness
-                .map(|side| side.map(|side| side.body_side_name().to_owned()));
-            apply_optional_change(&mut row.handedness, hand.as_ref());
-            apply_optional_change(&mut row.notes, change.notes.as_ref());
-            if row != old {
-                edits::update_signer(connection, &row)?;
-            }
-            if row.name != old.name {
-                // Tiers name their participant by text, and would lose the signer.
-                edits::rename_participant(connection, &old.name, &row.name)?;
-            }
-            if row.handedness != old.handedness {
-                derive_edited_recordings(connection, &edits::recordings_of_signer(connection, row.id)?)?;
-            }
+            let row = people::change_person_row(connection, &old, &change.clone().into())?;
             let signer = row.name.clone();
             Ok((row, OperationEffect::ChangeSigner { signer }))
         })

@@ -16,11 +16,13 @@ use crate::words::InterfaceLanguage;
 use crate::words::history_words::described_value;
 
 /// The tables that the user knows, each with the noun for a row and the column with its name.
-const LOGGED_TABLE_NOUNS: [(&str, &str, &str); 14] = [
+const LOGGED_TABLE_NOUNS: [(&str, &str, &str); 16] = [
     ("annotation", "annotation", "value"),
     ("tier", "tier", "name"),
     ("recording", "recording", "name"),
     ("signer", "signer", "name"),
+    ("person_alias", "other name", "name"),
+    ("person_attribute", "attribute", "name"),
     ("lexicon", "lexicon", "name"),
     ("sign", "sign", "gloss"),
     ("sign_text", "translation", "text"),

@@ -24,9 +24,6 @@ use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
 use crate::words::effect::OperationEffect;
 use counted_reading::AnnotatedGloss;
 
-/// The annotator of tiers that an adjudication writes; their values count before those of every other annotator.
-pub(crate) const ADJUDICATION_ANNOTATOR: &str = "adjudication";
-
 /// The key of the corpus's note that names the annotator whose readings count before those of others.
 pub(crate) const PREFERRED_ANNOTATOR_NOTE: &str = "preferred-annotator";
 
@@ -370,6 +367,14 @@ impl AnnotationsByTime {
         }
         self.owned = owned;
         Ok(())
+    }
+}
+
+/// Makes the preferred annotator have another name, if they have this one.
+pub(crate) fn rename_preferred_annotator(connection: &Connection, old: &str, new: &str) -> CorpusResult<()> {
+    match preferred_annotator(connection)?.as_deref() == Some(old) {
+        true => stored_merge::set_note(connection, PREFERRED_ANNOTATOR_NOTE, new),
+        false => Ok(()),
     }
 }
 

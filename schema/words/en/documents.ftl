@@ -189,3 +189,5 @@ message-documents-write-place-itself = write the place itself
 message-documents-write-part-hand-in-contact = write the part of the hand that is in contact
 message-documents-line-column = line { $n }, column { $column }: { $what }
 message-documents-line = line { $n }: { $what }
+message-documents-row-names-nobody = the row names nobody and was left out
+message-documents-call-column-name = call the column with the names of people name

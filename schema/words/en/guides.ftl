@@ -34,6 +34,7 @@ guide-guides-times-duration-start-end-in-s = Times: duration, start, end, in s, 
 guide-guides-attributes-sign-from-lexicon-table = Attributes of the sign, from a lexicon table
 guide-guides-curves-face-head-during-token-1 = Curves of face and head during the token (1 is the usual reach, or degrees)
 guide-guides-keys-cued-speech-placement-before-shape = Keys of cued speech, placement before shape
+guide-guides-what-corpus-says-of-signer = what the corpus says of the signer
 guide-guides-milliseconds-from-sound-hand = milliseconds from the sound to the hand
 guide-guides-token-as-whole = The token as a whole
 guide-guides-annotation-else-values = of its annotation, else of its values

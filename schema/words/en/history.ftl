@@ -60,6 +60,13 @@ history-rename-sign = Sign { $former } renamed to { $sign }, in { $annotations -
    *[other] { $annotations } annotations
 }
 history-set-citation = Citation form: token:{ $token } for { $gloss }
+history-change-person = Person changed: { $person }
+history-unite-people = { $names } made one person with { $person }
+history-remove-person = Person removed: { $person }
+history-import-people = { $people ->
+    [one] one person
+   *[other] { $people } people
+} read from { $file }
 history-change-lexicon = Lexicon changed: { $lexicon }
 history-remove-lexicon = Lexicon removed: { $lexicon }
 history-measure-signs = Measures of { $signs ->
@@ -146,6 +153,10 @@ history-summary-only-merge-values = Values merged: { $summary }
 history-summary-only-rename-search = Search renamed: { $summary }
 history-summary-only-change-sign = Sign changed: { $summary }
 history-summary-only-set-citation = Citation form: { $summary }
+history-summary-only-change-person = Person changed: { $summary }
+history-summary-only-unite-people = People made one: { $summary }
+history-summary-only-remove-person = Person removed: { $summary }
+history-summary-only-import-people = People read from a table: { $summary }
 history-summary-only-change-lexicon = Lexicon changed: { $summary }
 history-summary-only-remove-lexicon = Lexicon removed: { $summary }
 history-summary-only-measure-signs = Measures stored: { $summary }

@@ -234,3 +234,4 @@ line-importing-holds-vocabularies-of-elan = vocabularies of ELAN
 line-importing-holds-settings-of-elan = settings of ELAN
 line-importing-holds-films = films
 line-importing-holds-templates-of-elan = templates of ELAN
+message-importing-rows-recognised-by-column = its rows were recognised by the column { $quoted }: { $new } new, { $changed } changed, { $unchanged } as before, { $gone } gone

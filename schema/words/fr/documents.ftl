@@ -189,3 +189,5 @@ message-documents-write-place-itself = écrivez l’emplacement lui-même
 message-documents-write-part-hand-in-contact = écrivez la partie de la main qui est en contact
 message-documents-line-column = ligne { $n }, colonne { $column } : { $what }
 message-documents-line = ligne { $n } : { $what }
+message-documents-row-names-nobody = la ligne ne nomme personne et a été laissée de côté
+message-documents-call-column-name = appelez name la colonne des noms de personnes

@@ -34,6 +34,7 @@ guide-guides-times-duration-start-end-in-s = Temps : duration, start, end, en s,
 guide-guides-attributes-sign-from-lexicon-table = Attributs du signe, d’une table de lexique
 guide-guides-curves-face-head-during-token-1 = Courbes du visage et de la tête pendant l’occurrence (1 est l’ampleur usuelle, ou degrés)
 guide-guides-keys-cued-speech-placement-before-shape = Clés de la LfPC, l’emplacement avant la forme
+guide-guides-what-corpus-says-of-signer = ce que le corpus dit du signeur
 guide-guides-milliseconds-from-sound-hand = millisecondes du son à la main
 guide-guides-token-as-whole = L’occurrence entière
 guide-guides-annotation-else-values = de son annotation, sinon de ses valeurs

@@ -57,6 +57,13 @@ history-rename-sign = Signe { $former } renommé en { $sign }, dans { $annotatio
    *[other] { $annotations } annotations
 }
 history-set-citation = Forme de citation : token:{ $token } pour { $gloss }
+history-change-person = Personne modifiée : { $person }
+history-unite-people = { $names } réunis en une seule personne : { $person }
+history-remove-person = Personne supprimée : { $person }
+history-import-people = { $people ->
+    [one] une personne lue
+   *[other] { $people } personnes lues
+} dans { $file }
 history-change-lexicon = Lexique modifié : { $lexicon }
 history-remove-lexicon = Lexique supprimé : { $lexicon }
 history-measure-signs = Mesures de { $signs ->
@@ -143,6 +150,10 @@ history-summary-only-merge-values = Valeurs fusionnées : { $summary }
 history-summary-only-rename-search = Recherche renommée : { $summary }
 history-summary-only-change-sign = Signe modifié : { $summary }
 history-summary-only-set-citation = Forme de citation : { $summary }
+history-summary-only-change-person = Personne modifiée : { $summary }
+history-summary-only-unite-people = Personnes réunies : { $summary }
+history-summary-only-remove-person = Personne supprimée : { $summary }
+history-summary-only-import-people = Personnes lues dans un tableau : { $summary }
 history-summary-only-change-lexicon = Lexique modifié : { $summary }
 history-summary-only-remove-lexicon = Lexique supprimé : { $summary }
 history-summary-only-measure-signs = Mesures enregistrées : { $summary }

@@ -234,3 +234,4 @@ line-importing-holds-vocabularies-of-elan = vocabulaires d’ELAN
 line-importing-holds-settings-of-elan = réglages d’ELAN
 line-importing-holds-films = films
 line-importing-holds-templates-of-elan = modèles d’ELAN
+message-importing-rows-recognised-by-column = ses lignes ont été reconnues par la colonne { $quoted } : { $new } nouvelles, { $changed } modifiées, { $unchanged } inchangées, { $gone } disparues

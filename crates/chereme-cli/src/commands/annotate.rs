@@ -317,19 +317,11 @@ fn annotate_from_table(
     recording: Option<&RowName>,
     options: &AnnotateOptions,
 ) -> Result<(AnnotateReport, Vec<ReportFinding>)> {
-    let bytes = bytes_of(file)?;
+    let bytes = streams::read_file_or_stdin(file)?;
     let name = file.display().to_string();
     let mut bar = CommandProgressBar::new();
     let progress = &mut ProgressReceiver::new(&mut bar);
     Ok(corpus.annotate_table(&bytes, &name, recording, options, progress)?)
-}
-
-/// Returns the bytes of a file or of standard input.
-fn bytes_of(file: &Path) -> Result<Vec<u8>> {
-    if streams::is_standard(file) {
-        return streams::read_stdin_bytes();
-    }
-    Ok(std::fs::read(file).map_err(|error| CorpusError::from_file_failure(file, error))?)
 }
 
 fn paste_annotation_table(
@@ -351,7 +343,7 @@ fn paste_annotation_table(
         partly: *partly,
     };
     let name = file.display().to_string();
-    let text = String::from_utf8(bytes_of(file)?).map_err(|_| {
+    let text = String::from_utf8(streams::read_file_or_stdin(file)?).map_err(|_| {
         CorpusError::from_wrong_message("the text is not UTF-8")
             .with_error_place(&name)
             .with_advice("save it as UTF-8")

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use anyhow::Result;
 use chereme_corpus::words::merge_words as words;
-use chereme_corpus::{CompareSide, CorpusError, TranscriptDifference};
+use chereme_corpus::{CompareSide, TranscriptDifference};
 
 use crate::args::CommandLine;
 use crate::output::CommandOutput;
@@ -61,15 +61,8 @@ fn parse_compare_side(path: &Path) -> Result<CompareSide> {
 pub(super) fn file_compare_side(path: &Path) -> Result<CompareSide> {
     Ok(CompareSide::File {
         name: path.display().to_string(),
-        bytes: read_compare_bytes(path)?,
+        bytes: streams::read_file_or_stdin(path)?,
     })
-}
-
-pub(super) fn read_compare_bytes(path: &Path) -> Result<Vec<u8>> {
-    if streams::is_standard(path) {
-        return streams::read_stdin_bytes();
-    }
-    Ok(std::fs::read(path).map_err(|error| CorpusError::from_file_failure(path, error))?)
 }
 
 /// Prints one line for each difference.

@@ -223,11 +223,11 @@ fn merge_annotation_files(args: &MergeArgs, output: &mut CommandOutput) -> Resul
     };
     let name = |path: &Path| path.display().to_string();
     let base_path = args.base.as_deref();
-    let base = base_path.map(|path| Ok::<_, anyhow::Error>((name(path), diff::read_compare_bytes(path)?)));
+    let base = base_path.map(|path| Ok::<_, anyhow::Error>((name(path), streams::read_file_or_stdin(path)?)));
     let base = base.transpose()?;
     let (mine, other) = (
-        diff::read_compare_bytes(&args.mine)?,
-        diff::read_compare_bytes(&args.other)?,
+        streams::read_file_or_stdin(&args.mine)?,
+        streams::read_file_or_stdin(&args.other)?,
     );
     let merged = merge_files(
         base.as_ref().map(|(name, bytes)| (name.as_str(), bytes.as_slice())),

@@ -29,6 +29,7 @@ mod milestones_command;
 mod new;
 mod onsets_command;
 mod pairs_command;
+mod people_command;
 mod propose_command;
 mod publish;
 mod recombine_command;
@@ -82,6 +83,7 @@ commands! {
     Annotate => annotate::run(AnnotateArgs);
     Delete => delete_command::run(DeleteArgs);
     Forget => forget_command::run(ForgetArgs);
+    People => people_command::run(PeopleArgs);
     Lexicon => lexicon_command::run(LexiconArgs);
     Inventory => inventory_command::run(InventoryArgs);
     Track => track_command::run(TrackArgs);

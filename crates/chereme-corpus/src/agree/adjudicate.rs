@@ -16,11 +16,11 @@ use crate::annotate::{
     AnnotateOptions, AnnotationAction, AnnotationChange, NewTier, TierRequestName, TierValueSource, write_tiers,
 };
 use crate::db::edits;
+use crate::db::people::ADJUDICATION_ANNOTATOR;
 use crate::db::stored_tiers::{self as rows, AnnotationRow};
 use crate::error::{CorpusError, CorpusResult};
 use crate::merge::keep_annotation;
 use crate::progress::ProgressReceiver;
-use crate::tokens::ADJUDICATION_ANNOTATOR;
 use crate::words::effect::OperationEffect;
 
 /// The result of an adjudication.

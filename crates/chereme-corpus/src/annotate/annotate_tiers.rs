@@ -15,6 +15,7 @@ use super::scope::sign_tier;
 use crate::Corpus;
 use crate::address::{self, RowName};
 use crate::db::edits;
+use crate::db::people;
 use crate::db::stored_recordings;
 use crate::db::stored_tiers::{self as rows, TierRow};
 use crate::error::{CorpusError, CorpusResult};
@@ -175,9 +176,7 @@ pub(super) fn change_tier_row(
     if let Some(parent) = &change.parent {
         row = arrange::hang_tier_below(connection, &row, parent.as_ref())?;
     }
-    if row.participant != old.participant {
-        ensure_participant_signer(connection, row.participant.as_deref())?;
-    }
+    name_known_people(connection, &mut row)?;
     if row != *old {
         rows::update_tier(connection, &row)?;
         tokens::update_recording_tokens(connection, old.recording_id, None, &inventories)?;
@@ -207,11 +206,10 @@ pub(super) fn remove_tier_row(connection: &Connection, tier: &TierRow) -> Corpus
     Ok(removed)
 }
 
-/// Adds a participant of a tier to the signers of the corpus, if no signer has that name.
-fn ensure_participant_signer(connection: &Connection, participant: Option<&str>) -> CorpusResult<()> {
-    if let Some(name) = participant {
-        stored_recordings::signer_named(connection, name, None)?;
-    }
+/// Gives the participant and the annotator of a tier the names that the corpus uses, and adds those whom it does not know.
+fn name_known_people(connection: &Connection, row: &mut TierRow) -> CorpusResult<()> {
+    row.participant = people::known_person_name(connection, row.participant.as_deref())?;
+    row.annotator = people::known_person_name(connection, row.annotator.as_deref())?;
     Ok(())
 }
 
@@ -230,8 +228,8 @@ pub(super) fn tier_with_descendants<'t>(all: &'t [TierRow], tier: &'t TierRow) -
 /// Adds a tier below the others of its recording; returns it and the name of the recording.
 pub(super) fn insert_new_tier(connection: &Connection, tier: &NewTier) -> CorpusResult<(TierRow, String)> {
     let recording = address::find_recording_by_name(connection, &tier.recording)?;
-    let row = new_row(connection, recording.id, tier)?;
-    ensure_participant_signer(connection, row.participant.as_deref())?;
+    let mut row = new_row(connection, recording.id, tier)?;
+    name_known_people(connection, &mut row)?;
     let id = rows::insert_tier(connection, &row)?;
     Ok((TierRow { id, ..row }, recording.name))
 }

@@ -28,7 +28,8 @@ pub enum OutputAudience {
 }
 
 impl OutputAudience {
-    fn consent_audience(self) -> Option<ConsentAudience> {
+    /// Returns the people beyond those who keep the corpus, if it is for others.
+    pub(crate) fn consent_audience(self) -> Option<ConsentAudience> {
         match self {
             Self::Me => None,
             Self::Research => Some(ConsentAudience::Research),

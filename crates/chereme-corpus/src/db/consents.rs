@@ -1,8 +1,60 @@
 //! The consent of signers, as rows.
 
-use rusqlite::{Connection, params};
+use std::fmt;
+use std::str::FromStr;
 
-use crate::error::CorpusResult;
+use rusqlite::{Connection, params};
+use serde::{Deserialize, Serialize};
+
+use crate::error::{CorpusError, CorpusResult};
+
+/// The people who may see something, from the fewest to the most.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ConsentAudience {
+    /// Nobody beyond those who keep the corpus.
+    Nobody,
+    /// People who do research with the corpus.
+    Research,
+    /// Everybody.
+    Public,
+}
+
+impl ConsentAudience {
+    /// All of them, from the most people to the fewest.
+    pub const ALL_AUDIENCES: [Self; 3] = [Self::Public, Self::Research, Self::Nobody];
+
+    /// Returns its name, such as `public`.
+    #[must_use]
+    pub fn audience_name(self) -> &'static str {
+        match self {
+            Self::Public => "public",
+            Self::Research => "research",
+            Self::Nobody => "nobody",
+        }
+    }
+}
+
+impl fmt::Display for ConsentAudience {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.audience_name())
+    }
+}
+
+impl FromStr for ConsentAudience {
+    type Err = CorpusError;
+
+    fn from_str(text: &str) -> CorpusResult<Self> {
+        let named_audience = Self::ALL_AUDIENCES
+            .into_iter()
+            .find(|audience| audience.audience_name() == text.trim());
+        named_audience.ok_or_else(|| {
+            CorpusError::from_wrong_message(format!("{text:?} is no audience"))
+                .with_error_place(text)
+                .with_advice("write public, research or nobody")
+        })
+    }
+}
 
 /// The consent of a signer, or the one that belongs to a recording.
 pub(crate) struct ConsentColumn {

@@ -6,15 +6,18 @@ use std::path::Path;
 use rusqlite::types::ValueRef;
 use rusqlite::{Connection, OpenFlags, params};
 
+use super::consents::ConsentAudience;
 use super::stored_motion::to_hex_text;
 use super::{open, seals, stored_delete, stored_search};
 use crate::error::{CorpusError, CorpusResult};
 
 /// The tables that a reader of the data needs, each after those it refers to.
-pub(crate) const DUMPED_TABLES: [&str; 28] = [
+pub(crate) const DUMPED_TABLES: [&str; 30] = [
     "meta",
     "lexicon",
     "signer",
+    "person_alias",
+    "person_attribute",
     "skeleton",
     "recording",
     "source_file",
@@ -55,8 +58,9 @@ pub(crate) struct OmittedRows<'a> {
     pub(crate) recordings: &'a BTreeSet<i64>,
     /// Whether the history goes, with all that was deleted.
     pub(crate) history: bool,
-    /// Whether studies with their answers, and saved searches go.
-    pub(crate) work: bool,
+    /// The people for whom the copy is, if it is for others: studies with their answers, saved searches, other names of
+    /// people, and what is said of people to fewer go.
+    pub(crate) audience: Option<ConsentAudience>,
 }
 
 /// Writes a compact copy of the database that does without some rows: nothing of them is in its bytes.
@@ -101,16 +105,21 @@ pub(crate) fn erase_rows(connection: &Connection, omitted: OmittedRows<'_>) -> C
     if omitted.history {
         connection.execute_batch("DELETE FROM changeset; DELETE FROM operation;")?;
     }
-    if omitted.work {
+    if let Some(audience) = omitted.audience {
+        // Another name may be the true one behind a code.
         connection.execute_batch(
-            "DELETE FROM study_answer; DELETE FROM study_participant; DELETE FROM study; DELETE FROM kept_search;",
+            "DELETE FROM study_answer; DELETE FROM study_participant; DELETE FROM study; DELETE FROM kept_search;
+             DELETE FROM meta WHERE key LIKE 'conflict:%';
+             DELETE FROM person_alias;",
         )?;
-    }
-    if omitted.work {
-        connection.execute_batch(
-            "DELETE FROM meta WHERE key LIKE 'conflict:%';
-             DELETE FROM signer WHERE id NOT IN (SELECT signer_id FROM recording WHERE signer_id IS NOT NULL);",
-        )?;
+        for narrower in ConsentAudience::ALL_AUDIENCES.into_iter().filter(|one| *one < audience) {
+            let sql = "DELETE FROM person_attribute WHERE audience = ?1";
+            connection.execute(sql, [narrower.audience_name()])?;
+        }
+        let is_gone = "NOT IN (SELECT signer_id FROM recording WHERE signer_id IS NOT NULL)";
+        connection.execute_batch(&format!(
+            "DELETE FROM person_attribute WHERE signer_id {is_gone}; DELETE FROM signer WHERE id {is_gone};"
+        ))?;
     }
     if omitted.history || !omitted.recordings.is_empty() {
         connection.execute_batch("DELETE FROM block WHERE hash NOT IN (SELECT hash FROM track_block);")?;

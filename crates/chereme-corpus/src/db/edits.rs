@@ -92,12 +92,26 @@ pub(crate) fn update_signer(connection: &Connection, row: &SignerRow) -> CorpusR
     Ok(())
 }
 
-/// Renames a participant on all tiers.
-pub(crate) fn rename_participant(connection: &Connection, old: &str, new: &str) -> CorpusResult<()> {
-    connection
+/// Renames a participant on all tiers, and returns their number.
+pub(crate) fn rename_participant(connection: &Connection, old: &str, new: &str) -> CorpusResult<usize> {
+    Ok(connection
         .prepare_cached("UPDATE tier SET participant = ?2 WHERE participant = ?1")?
-        .execute([old, new])?;
-    Ok(())
+        .execute([old, new])?)
+}
+
+/// Renames an annotator on all tiers, and returns their number.
+pub(crate) fn rename_annotator(connection: &Connection, old: &str, new: &str) -> CorpusResult<usize> {
+    Ok(connection
+        .prepare_cached("UPDATE tier SET annotator = ?2 WHERE annotator = ?1")?
+        .execute([old, new])?)
+}
+
+/// Returns the recordings with a tier of an annotator.
+pub(crate) fn recordings_of_annotator(connection: &Connection, name: &str) -> CorpusResult<Vec<i64>> {
+    let sql = "SELECT DISTINCT recording_id FROM tier WHERE annotator = ?1 ORDER BY 1";
+    let mut statement = connection.prepare_cached(sql)?;
+    let ids = statement.query_map([name], |row| row.get(0))?;
+    Ok(ids.collect::<rusqlite::Result<_>>()?)
 }
 
 /// Returns the recordings that show a signer: the signer's own, and those with tiers for that participant.

@@ -10,6 +10,7 @@ pub(crate) mod file_identity;
 pub(crate) mod lexicons;
 pub(crate) mod notations;
 mod open;
+pub(crate) mod people;
 pub(crate) mod recipes;
 pub(crate) mod saved_searches;
 pub(crate) mod seals;

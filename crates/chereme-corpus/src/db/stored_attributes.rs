@@ -5,6 +5,7 @@ use std::rc::Rc;
 
 use rusqlite::{Connection, params};
 
+use super::people::{SIGNED_TOKENS_SQL, SIGNER_ATTRIBUTE_PREFIX};
 use super::signs::json_list;
 use crate::error::CorpusResult;
 
@@ -64,9 +65,10 @@ pub(crate) fn of_tokens(connection: &Connection, tokens: &[i64]) -> CorpusResult
     Ok(all)
 }
 
-/// Returns the names of all attributes, in order.
+/// Returns the names of all attributes, in order; those of signers begin with [`SIGNER_ATTRIBUTE_PREFIX`].
 pub(crate) fn list_attribute_names(connection: &Connection) -> CorpusResult<Vec<String>> {
-    let mut statement = connection.prepare_cached("SELECT DISTINCT name FROM attribute ORDER BY name")?;
+    let mut statement = connection
+        .prepare_cached("SELECT name FROM attribute UNION SELECT 'signer.' || name FROM person_attribute ORDER BY 1")?;
     let names = statement
         .query_map([], |row| row.get(0))?
         .collect::<rusqlite::Result<_>>()?;
@@ -75,7 +77,8 @@ pub(crate) fn list_attribute_names(connection: &Connection) -> CorpusResult<Vec<
 
 /// Returns for each token the attributes of these names that count for it.
 ///
-/// A row of a table has its own attributes alone; every other token of a sign has those of the sign's rows.
+/// A row of a table has its own attributes alone; every other token of a sign has those of the sign's rows. The tokens of
+/// a signer have what is said of the signer.
 pub(crate) fn attributes_by_token(
     connection: &Connection,
     names: &[String],
@@ -108,6 +111,24 @@ pub(crate) fn attributes_by_token(
     while let Some(row) = rows.next()? {
         let sign: i64 = row.get(1)?;
         by_token.entry(row.get(0)?).or_insert_with(|| by_sign[&sign].clone());
+    }
+    let signer_attributes = names
+        .iter()
+        .filter_map(|name| name.strip_prefix(SIGNER_ATTRIBUTE_PREFIX));
+    let mut statement = connection.prepare_cached(&format!(
+        "SELECT t.id, v.text, v.number FROM {SIGNED_TOKENS_SQL}
+         JOIN person_attribute v ON v.signer_id = coalesce(p.id, r.signer_id) WHERE v.name = ?1"
+    ))?;
+    for name in signer_attributes {
+        let mut rows = statement.query([name])?;
+        while let Some(row) = rows.next()? {
+            let attribute_row = Rc::new(AttributeRow {
+                name: format!("{SIGNER_ATTRIBUTE_PREFIX}{name}"),
+                text: row.get(1)?,
+                number: row.get(2)?,
+            });
+            by_token.entry(row.get(0)?).or_default().push(attribute_row);
+        }
     }
     Ok(by_token)
 }
@@ -147,13 +168,11 @@ pub(crate) struct SignUse {
 
 /// Returns the captured tokens of all signs, by sign, recording, signer and time.
 pub(crate) fn load_sign_uses(connection: &Connection) -> CorpusResult<Vec<SignUse>> {
-    let mut statement = connection.prepare_cached(
+    let mut statement = connection.prepare_cached(&format!(
         "SELECT t.sign_id, t.recording_id, coalesce(p.id, r.signer_id) AS used_by, t.start_us, t.end_us
-         FROM token t JOIN recording r ON r.id = t.recording_id
-         LEFT JOIN annotation a ON a.id = t.annotation_id
-         LEFT JOIN tier i ON i.id = a.tier_id LEFT JOIN signer p ON p.name = i.participant
-         WHERE t.origin = 'captured' ORDER BY t.sign_id, t.recording_id, used_by, t.start_us",
-    )?;
+         FROM {SIGNED_TOKENS_SQL}
+         WHERE t.origin = 'captured' ORDER BY t.sign_id, t.recording_id, used_by, t.start_us"
+    ))?;
     let rows = statement.query_map([], |row| {
         Ok(SignUse {
             sign: row.get(0)?,

@@ -9,6 +9,7 @@ use rusqlite::types::ValueRef;
 use rusqlite::{Connection, TransactionBehavior};
 
 use super::dump::{self, OmittedRows};
+use super::people;
 use super::stale_log::companion_path;
 use super::stored_motion::to_hex_text;
 use super::{CorpusStore, DerivedData};
@@ -52,6 +53,7 @@ impl ErasedTraces {
         };
         traces.add_traces("SELECT name FROM signer WHERE id = ?1", signer, connection)?;
         traces.add_traces("SELECT uid FROM signer WHERE id = ?1", signer, connection)?;
+        traces.add_traces("SELECT name FROM person_alias WHERE signer_id = ?1", signer, connection)?;
         for recording in recordings {
             // A name alone may be common, so identities and hashes are searched for as well.
             for sql in [
@@ -270,10 +272,10 @@ impl<D: DerivedData> CorpusStore<D> {
         let omitted = OmittedRows {
             recordings,
             history: true,
-            work: false,
+            audience: None,
         };
         transaction.execute("UPDATE recording SET signer_id = NULL WHERE signer_id = ?1", [signer])?;
-        transaction.execute("DELETE FROM signer WHERE id = ?1", [signer])?;
+        people::delete_person(&transaction, signer)?;
         dump::erase_rows(&transaction, omitted)?;
         Ok(transaction.commit()?)
     }

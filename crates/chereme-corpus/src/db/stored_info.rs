@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use rusqlite::Connection;
 use serde::Serialize;
 
+use crate::db::people::SIGNER_ROWS_SQL;
 use crate::db::stored_rows::{InventoryInfo, SignerInfo};
 use crate::error::CorpusResult;
 
@@ -132,11 +133,11 @@ pub(crate) fn content_sizes_bytes(connection: &Connection) -> CorpusResult<BTree
 
 /// Returns the signers by name.
 pub(crate) fn load_signer_infos(connection: &Connection) -> CorpusResult<Vec<SignerInfo>> {
-    let mut statement = connection.prepare_cached(
+    let mut statement = connection.prepare_cached(&format!(
         "SELECT name, handedness, (SELECT count(*) FROM recording r WHERE r.signer_id = g.id
              OR EXISTS (SELECT 1 FROM tier i WHERE i.recording_id = r.id AND i.participant = g.name))
-         FROM signer g ORDER BY name",
-    )?;
+         FROM {SIGNER_ROWS_SQL} ORDER BY name"
+    ))?;
     let rows = statement.query_map([], |row| {
         Ok(SignerInfo {
             name: row.get(0)?,

@@ -325,7 +325,7 @@ pub(crate) const SIGNERS_LIST: ListTable = ListTable {
         text_list_column("notes", "g.notes"),
         text_list_column("consent", "g.consent"),
     ],
-    from: "signer g",
+    from: super::people::SIGNER_ROWS_SQL,
     order: "g.name",
 };
 

@@ -331,6 +331,8 @@ pub(crate) fn find_namesake_row(connection: &Connection, table: &str, image: &Ro
         "sign" => &["lexicon_id", "gloss"],
         "tier" | "track" => &["recording_id", "name"],
         "attribute" => &["token_id", "name"],
+        "person_alias" => &["name"],
+        "person_attribute" => &["signer_id", "name"],
         "notation" => &["token_id"],
         "recipe" => &["recording_id"],
         "channel" => &["track_id", "position"],

@@ -11,6 +11,7 @@ use serde_json::json;
 use sha2::{Digest as _, Sha256};
 
 use super::damaged_row_error;
+use super::people::{self, SIGNER_ROWS_SQL};
 use super::stored_columns::{NamedColumn, RecordOrigin, read_word_column};
 use super::stored_motion::to_hex_text;
 use crate::error::{CorpusError, CorpusResult};
@@ -117,13 +118,20 @@ pub(crate) fn signer_named(connection: &Connection, name: &str, handedness: Opti
     Ok(connection.last_insert_rowid())
 }
 
-/// Returns the signer called `name`.
+/// Returns the person called `name`, or else the one of whom that is another name.
 pub(crate) fn find_signer(connection: &Connection, name: &str) -> CorpusResult<Option<SignerRow>> {
     let sql = "SELECT id, name, handedness, notes FROM signer WHERE name = ?1";
-    Ok(connection
+    let person = connection
         .prepare_cached(sql)?
         .query_row([name], signer_row)
-        .optional()?)
+        .optional()?;
+    match person {
+        Some(person) => Ok(Some(person)),
+        None => match people::find_person_by_alias(connection, name)? {
+            Some(id) => find_signer_row(connection, id),
+            None => Ok(None),
+        },
+    }
 }
 
 /// Returns the signer of that row.
@@ -132,10 +140,10 @@ pub(crate) fn find_signer_row(connection: &Connection, id: i64) -> CorpusResult<
     Ok(connection.prepare_cached(sql)?.query_row([id], signer_row).optional()?)
 }
 
-/// Returns all signers by name.
+/// Returns all signers by name, without people who only annotate.
 pub(crate) fn load_signer_rows(connection: &Connection) -> CorpusResult<Vec<SignerRow>> {
-    let sql = "SELECT id, name, handedness, notes FROM signer ORDER BY name";
-    let mut statement = connection.prepare_cached(sql)?;
+    let sql = format!("SELECT id, name, handedness, notes FROM {SIGNER_ROWS_SQL} ORDER BY name");
+    let mut statement = connection.prepare_cached(&sql)?;
     let rows = statement.query_map([], signer_row)?.collect::<rusqlite::Result<_>>()?;
     Ok(rows)
 }

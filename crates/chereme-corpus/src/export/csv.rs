@@ -1,17 +1,22 @@
 //! Exports tokens and annotations as tables.
 //!
 //! The columns of components have the names of fields in queries. Several values of one field are written in one cell
-//! as in lexicons (`chin > chest`, `S + W`), so that importing the table gives the same codings.
+//! as in lexicons (`chin > chest`, `S + W`), so that importing the table gives the same codings. The signer of a token of a
+//! dialogue is the participant of its tier; what is said of signers stands in columns such as `signer.region`, as far as
+//! the audience may know it.
 
 use chereme_sign::SignPhase;
 use chereme_sign::tier::AnnotatedHands;
+use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;
 
 use ::csv::{Writer, WriterBuilder};
 use rusqlite::Connection;
 
+use crate::consent::ConsentAudience;
 use crate::db::notations;
+use crate::db::people::{self, SIGNER_ATTRIBUTE_PREFIX};
 use crate::db::signs::{self, TokenRow, TokenValueRow};
 use crate::db::stored_attributes;
 use crate::db::stored_columns::ValueState;
@@ -32,6 +37,8 @@ pub(super) struct TableForm {
     pub(super) delimiter: u8,
     /// Whether cells that a spreadsheet would take for formulas get an apostrophe before them.
     pub(super) is_spreadsheet_safe: bool,
+    /// The people for whom it is, if it is for others.
+    pub(super) audience: Option<ConsentAudience>,
 }
 
 impl TableForm {
@@ -39,6 +46,7 @@ impl TableForm {
         Self {
             delimiter,
             is_spreadsheet_safe: false,
+            audience: None,
         }
     }
 }
@@ -65,13 +73,13 @@ pub(super) fn write_token_csv(
     notes: &mut Vec<String>,
     progress: &mut ProgressReceiver<'_>,
 ) -> CorpusResult<()> {
-    let signers = signers_by_recording(connection)?;
     let mut columns: BTreeSet<TokenTableColumn> = BTreeSet::new();
     let mut languages: BTreeMap<String, usize> = BTreeMap::new();
     let mut unclear = 0;
     let mut signs: BTreeSet<i64> = BTreeSet::new();
     let mut notated = false;
     let mut named: Vec<String> = Vec::new();
+    let mut said_of_signers: BTreeMap<i64, BTreeMap<String, String>> = BTreeMap::new();
     // A first pass finds the columns that any token needs, since the titles come before all rows.
     for (part, ids) in tokens.chunks(signs::MAX_ROWS_PER_QUERY).enumerate() {
         for values in signs::values_of(connection, ids)?.values() {
@@ -81,6 +89,11 @@ pub(super) fn write_token_csv(
         for row in stored_attributes::of_tokens(connection, ids)?.into_values().flatten() {
             if !named.contains(&row.name) {
                 named.push(row.name);
+            }
+        }
+        for (signer, _) in people::signers_of_tokens(connection, ids)?.into_values() {
+            if let Entry::Vacant(unknown) = said_of_signers.entry(signer) {
+                unknown.insert(signer_attributes(connection, signer, form.audience)?);
             }
         }
         signs.extend(
@@ -111,6 +124,8 @@ pub(super) fn write_token_csv(
     let sign_titles = titles.chain(translations).chain(notation);
     let titles = sign_titles.chain(columns.iter().map(token_column_title));
     let titles: Vec<String> = titles.collect();
+    let signer_titles: BTreeSet<&String> = said_of_signers.values().flat_map(BTreeMap::keys).collect();
+    named.extend(signer_titles.into_iter().cloned());
     // An attribute of the same title as a column could not be distinguished from it when the table is read back.
     named.retain(|name| !titles.contains(name));
     let titles = titles.into_iter().chain(named.iter().cloned());
@@ -120,11 +135,14 @@ pub(super) fn write_token_csv(
         let values = signs::values_of(connection, ids)?;
         let notations = notation::of_tokens(connection, ids)?;
         let own_attributes = stored_attributes::of_tokens(connection, ids)?;
+        let signers = people::signers_of_tokens(connection, ids)?;
         for id in ids {
             let token = rows
                 .get(id)
                 .map_or_else(|| signs::load_token_row(connection, *id), |row| Ok(row.clone()))?;
-            let mut row = fixed(&token, &signers);
+            let signer = signers.get(id);
+            let said_of_signer = signer.and_then(|(signer, _)| said_of_signers.get(signer));
+            let mut row = fixed(&token, signer.map(|(_, name)| name.as_str()));
             let mut texts = sign_translations_by_language(connection, token.sign_id)?;
             for (language, most) in &languages {
                 let mut language_texts = texts.remove(language).unwrap_or_default();
@@ -143,7 +161,11 @@ pub(super) fn write_token_csv(
             let token_attributes = own_attributes.get(id).map_or(&[][..], Vec::as_slice);
             row.extend(named.iter().map(|name| {
                 let named_attribute = token_attributes.iter().find(|attribute| attribute.name == *name);
-                named_attribute.map_or_else(String::new, |attribute| attribute.text.clone())
+                let own_text = named_attribute.map(|attribute| &attribute.text);
+                own_text
+                    .or(said_of_signer.and_then(|said| said.get(name)))
+                    .cloned()
+                    .unwrap_or_default()
             }));
             table.write_record(row)?;
         }
@@ -236,9 +258,17 @@ fn report_csv_progress(progress: &mut ProgressReceiver<'_>, done: usize, total: 
     })
 }
 
-fn signers_by_recording(connection: &Connection) -> CorpusResult<BTreeMap<i64, String>> {
-    let all = stored_recordings::load_recording_rows(connection)?.into_iter();
-    Ok(all.filter_map(|row| Some((row.id, row.signer?))).collect())
+/// Returns what is said of a signer to an audience, by the title of its column.
+fn signer_attributes(
+    connection: &Connection,
+    signer: i64,
+    audience: Option<ConsentAudience>,
+) -> CorpusResult<BTreeMap<String, String>> {
+    let all = people::load_person_attributes(connection, signer)?.into_iter();
+    let shown = all.filter(|attribute| audience.is_none_or(|audience| attribute.audience >= audience));
+    Ok(shown
+        .map(|attribute| (format!("{SIGNER_ATTRIBUTE_PREFIX}{}", attribute.name), attribute.text))
+        .collect())
 }
 
 fn sign_translations_by_language(connection: &Connection, sign: i64) -> CorpusResult<BTreeMap<String, Vec<String>>> {
@@ -256,8 +286,7 @@ fn translation_column_title(language: &str) -> String {
     }
 }
 
-fn fixed(token: &TokenRow, signers: &BTreeMap<i64, String>) -> Vec<String> {
-    let signer = token.recording_id.and_then(|id| signers.get(&id));
+fn fixed(token: &TokenRow, signer: Option<&str>) -> Vec<String> {
     vec![
         token.id.to_string(),
         token.gloss.clone(),
@@ -266,7 +295,7 @@ fn fixed(token: &TokenRow, signers: &BTreeMap<i64, String>) -> Vec<String> {
         micros_as_seconds_text(token.start_us),
         micros_as_seconds_text(token.end_us),
         token.origin.record_origin_name().to_owned(),
-        signer.cloned().unwrap_or_default(),
+        signer.unwrap_or_default().to_owned(),
         token.hand.map_or("", AnnotatedHands::annotated_hands_name).to_owned(),
         if token.citation { "yes" } else { "no" }.to_owned(),
     ]

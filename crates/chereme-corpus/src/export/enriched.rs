@@ -128,7 +128,7 @@ impl EnrichedFolder<'_> {
                 dump::OmittedRows {
                     recordings: withheld,
                     history: !self.with_history || for_others,
-                    work: for_others,
+                    audience: self.gate.export_audience().consent_audience(),
                 },
             )?,
         }

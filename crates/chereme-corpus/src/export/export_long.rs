@@ -7,6 +7,7 @@ use chereme_sign::ErrorRemedy;
 use rusqlite::Connection;
 
 use super::ExportWhat;
+use super::export_gate::ExportGate;
 use crate::error::CorpusResult;
 use crate::progress::ProgressReceiver;
 
@@ -44,6 +45,7 @@ pub(super) fn write_long_table(
     connection: &Connection,
     what: &ExportWhat,
     long: LongTable,
+    gate: &ExportGate,
     out: &mut dyn Write,
     notes: &mut Vec<String>,
     progress: &mut ProgressReceiver<'_>,
@@ -52,7 +54,14 @@ pub(super) fn write_long_table(
     match long {
         LongTable::Tokens => {
             let tokens = super::selected_export_tokens(connection, what)?;
-            parquet::write_token_parquet(connection, &tokens, out, notes, progress)
+            parquet::write_token_parquet(
+                connection,
+                &tokens,
+                gate.export_audience().consent_audience(),
+                out,
+                notes,
+                progress,
+            )
         }
         LongTable::Components => {
             let tokens = super::selected_export_tokens(connection, what)?;
@@ -123,6 +132,7 @@ pub(super) fn write_long_table(
     _connection: &Connection,
     _what: &ExportWhat,
     long: LongTable,
+    _gate: &ExportGate,
     _out: &mut dyn Write,
     _notes: &mut Vec<String>,
     _progress: &mut ProgressReceiver<'_>,

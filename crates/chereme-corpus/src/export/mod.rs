@@ -413,6 +413,10 @@ fn write_file(
         }
         (SingleFileFormat::Table(form), _) => {
             let tokens = selected_export_tokens(connection, what)?;
+            let form = TableForm {
+                audience: gate.export_audience().consent_audience(),
+                ..form
+            };
             csv::write_token_csv(connection, &tokens, form, out, notes, progress)
         }
         (SingleFileFormat::Curves(delimiter), _) => {
@@ -446,7 +450,7 @@ fn write_file(
             Ok(())
         }
         (SingleFileFormat::Parquet(long), _) => {
-            export_long::write_long_table(connection, what, long, out, notes, progress)
+            export_long::write_long_table(connection, what, long, gate, out, notes, progress)
         }
         (SingleFileFormat::Vrma, _) => {
             let stretch = selected_export_stretch(connection, what)?;

@@ -26,6 +26,7 @@ use super::readers::ParseFunction;
 use super::understood::TiersRead;
 use super::{FileReport, FileStatus, ImportJob, OwnEdits};
 use crate::db::edits;
+use crate::db::people;
 use crate::db::stored_columns::{AnnotationOrigin, RecordOrigin, ValueState};
 use crate::db::stored_recordings::{self, MediaTrackRow, RecordingRow};
 use crate::db::stored_tiers::{self, AnnotationRow, TierRow};
@@ -578,8 +579,8 @@ fn write_tiers(
             position: (first + place) as i64,
             parent_id: tier.parent.map(|parent| rows[parent]),
             stereotype: tier.stereotype,
-            participant: tier.participant.clone(),
-            annotator: tier.annotator.clone(),
+            participant: people::known_person_name(job.connection, tier.participant.as_deref())?,
+            annotator: people::known_person_name(job.connection, tier.annotator.as_deref())?,
             language: tier.language.clone(),
             inventory_id: inventory,
             source: Some(

@@ -13,6 +13,7 @@ use chereme_sign::text::{compose_accents, fold_text};
 use chereme_sign::{ComponentInventory, ComponentReading, InventoryValue, SignComponent};
 use serde_json::{Map, Value, json};
 
+use super::earlier_entries::EarlierEntries;
 use super::import_lexicons::{LexiconCells, lexicon_of_table, names_other_lexicon};
 use super::import_notation::{LexiconNotationText, NotationValueMapper};
 use super::{FileReport, FileStatus, ImportJob};
@@ -23,13 +24,12 @@ use crate::db::stored_attributes::{self, AttributeRow, MEASURE_PREFIX};
 use crate::db::stored_columns::{RecordOrigin, ValueState};
 use crate::db::stored_recordings::{self, SourceFileRow};
 use crate::error::{CorpusError, CorpusResult};
-use crate::forms::row_has_cells;
 use crate::inventories;
 use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
 use crate::report_finding::ReportFinding;
 
 /// The number of names of values that a finding lists.
-const SHOWN_NAMES: usize = 8;
+pub(super) const SHOWN_NAMES: usize = 8;
 
 pub(super) fn import_lexicon(job: &mut ImportJob<'_>, progress: &mut ProgressReceiver<'_>) -> CorpusResult<FileReport> {
     let source = LexiconFileSource::find_lexicon_source(job);
@@ -113,7 +113,7 @@ pub(super) fn import_lexicon(job: &mut ImportJob<'_>, progress: &mut ProgressRec
     let words = NotationValueMapper::new(&stored);
     let total = Some(table.entries.len() as u64);
     let mut signs = LexiconSigns {
-        earlier: EarlierEntries::load_earlier_entries(job, &source)?,
+        earlier: EarlierEntries::load_earlier_entries(job, &source.place, source.newest.is_some(), &table)?,
         source,
         lexicon: lexicon.map(|lexicon| lexicon.id),
         by_row,
@@ -142,6 +142,7 @@ pub(super) fn import_lexicon(job: &mut ImportJob<'_>, progress: &mut ProgressRec
         }
     }
     signs.leave_emptied(job)?;
+    report.findings.extend(signs.earlier.row_id_finding());
     report.findings.extend(signs.earlier.missing_entries_finding());
     Ok(report)
 }
@@ -318,91 +319,6 @@ impl KnownSign {
             id: sign.id,
             has_citation: signs::has_citation(job.connection, sign.id)?,
         })
-    }
-}
-
-/// The entries of earlier imports of the file that no row has taken yet, by gloss, oldest first.
-#[derive(Default)]
-struct EarlierEntries(BTreeMap<String, Vec<EarlierEntry>>);
-
-/// An entry of an earlier import.
-struct EarlierEntry {
-    token: TokenRow,
-    /// Its row of the table then: titles and cells, without the gloss and empty cells.
-    cells: Map<String, Value>,
-}
-
-impl EarlierEntries {
-    fn load_earlier_entries(job: &ImportJob<'_>, source: &LexiconFileSource) -> CorpusResult<Self> {
-        let mut all = Self::default();
-        let mut namesakes = job.places.files_of_same_name(&job.file_name);
-        if source.newest.is_none() && !namesakes.any(|row| row.path.is_none()) {
-            return Ok(all);
-        }
-        for token in signs::lexicon_entries(job.connection)? {
-            let text = token.source.as_deref().unwrap_or_default();
-            // An entry that was not made from a table has no row to compare with.
-            let Ok(mut origin) = serde_json::from_str::<Value>(text) else {
-                continue;
-            };
-            let same = match origin["path"].as_str() {
-                Some(path) => path == source.place,
-                // Entries of older corpora know only the name of their file.
-                None => origin["file"].as_str() == Some(&job.file_name),
-            };
-            // A sign from a SiGML file has no cells: it is an entry of its own.
-            if let Value::Object(cells) = origin["cells"].take()
-                && same
-            {
-                let gloss = compose_accents(&token.gloss).into_owned();
-                let entries = all.0.entry(gloss).or_default();
-                entries.push(EarlierEntry { token, cells });
-            }
-        }
-        Ok(all)
-    }
-
-    /// Takes the entry of a row: the one with the same cells, whose gloss is that of the row or, because another column
-    /// was the gloss, that of another cell; otherwise the oldest with the row's gloss.
-    fn take_earlier_entry(&mut self, table: &SignLexicon, row: &LexiconEntry) -> Option<TokenRow> {
-        if self.0.is_empty() {
-            return None;
-        }
-        for (column, cell) in table.columns.iter().zip(&row.cells) {
-            let entries = self.0.get_mut(&*compose_accents(cell.trim()));
-            let is_row = |entry: &EarlierEntry| {
-                // The stored cells lack the gloss, so the column that is missing in them was the gloss then.
-                !entry.cells.contains_key(&column.title) && row_has_cells(table, row, &entry.cells)
-            };
-            if let Some(entries) = entries
-                && let Some(at) = entries.iter().position(is_row)
-            {
-                return Some(entries.remove(at).token);
-            }
-        }
-        let gloss_entries = self.0.get_mut(&*compose_accents(&row.gloss));
-        let entries = gloss_entries.filter(|entries| !entries.is_empty())?;
-        Some(entries.remove(0).token)
-    }
-
-    /// Returns a finding about the entries that no row of the table has taken.
-    fn missing_entries_finding(&self) -> Option<ReportFinding> {
-        let mut glosses = self.0.iter().filter(|(_, left)| !left.is_empty());
-        let shown_glosses = glosses.by_ref().take(SHOWN_NAMES);
-        let shown: Vec<&str> = shown_glosses.map(|(gloss, _)| gloss.as_str()).collect();
-        let more = match glosses.count() {
-            0 => String::new(),
-            more => format!(", and {more} more"),
-        };
-        let message = format!(
-            "signs of an earlier version of this table that have no row here, and were kept: {}{more}",
-            shown.join(", ")
-        );
-        let remedy = ErrorRemedy::command_remedy(
-            "`chereme delete CORPUS sign:GLOSS` deletes a sign that is not wanted any more; or put its row back into the \
-             table, and import that again",
-        );
-        (!shown.is_empty()).then(|| ReportFinding::finding_warning(message, remedy))
     }
 }
 

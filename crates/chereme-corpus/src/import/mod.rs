@@ -3,6 +3,7 @@
 //! One import is one operation, however many files it reads. A file that is refused leaves nothing behind and does not
 //! prevent the others from being imported.
 
+mod earlier_entries;
 mod elan;
 mod import_again;
 mod import_bvh;

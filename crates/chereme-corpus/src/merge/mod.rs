@@ -54,9 +54,11 @@ pub struct MergeReport {
 
 /// The tables that are merged; a table comes after those it refers to. Tokens of annotations are not merged but
 /// derived.
-const MERGED_TABLE_ORDER: [&str; 20] = [
+const MERGED_TABLE_ORDER: [&str; 22] = [
     "lexicon",
     "signer",
+    "person_alias",
+    "person_attribute",
     "skeleton",
     "inventory",
     "inventory_value",

@@ -10,7 +10,8 @@ use chereme_motion::TimeSpan;
 use chereme_sign::token::{ComponentSpan, component_readings};
 use chereme_sign::{ComponentField, HandRef, SignComponent};
 
-use super::{ADJUDICATION_ANNOTATOR, CodedAnnotation};
+use super::CodedAnnotation;
+use crate::db::people::ADJUDICATION_ANNOTATOR;
 use crate::db::signs::TokenValueRow;
 
 /// A gloss and what was annotated during it.

@@ -105,6 +105,14 @@ pub enum OperationEffect {
     },
     /// A token became the citation form of its sign.
     SetCitation { token: i64, gloss: String },
+    /// A person got other names or properties.
+    ChangePerson { person: String },
+    /// People became one.
+    UnitePeople { names: Vec<String>, person: String },
+    /// A person of whom nothing was recorded was removed.
+    RemovePerson { person: String },
+    /// A table of people was read.
+    ImportPeople { file: String, people: u64 },
     /// A lexicon without signs was removed.
     RemoveLexicon { lexicon: String },
     /// The signs of a lexicon were measured.
@@ -329,6 +337,9 @@ impl OperationEffect {
             Self::ChangeSign { former: None, .. } => "{sign}",
             Self::ChangeSign { .. } => "{former} to {sign}, {annotations}",
             Self::SetCitation { .. } => "token:{token} for {gloss}",
+            Self::ChangePerson { .. } | Self::RemovePerson { .. } => "{person}",
+            Self::UnitePeople { .. } => "{names} into {person}",
+            Self::ImportPeople { .. } => "{people} people from {file}",
             Self::ChangeLexicon { .. } | Self::RemoveLexicon { .. } => "{lexicon}",
             Self::MeasureSigns { .. } => "{signs} signs",
             Self::LinkLexicon { .. } => "{lexicon}: {recordings} recordings",

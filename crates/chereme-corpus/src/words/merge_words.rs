@@ -35,6 +35,8 @@ texts! {
     CHANNEL: "channel", "canal";
     SKELETON: "skeleton", "squelette";
     SIGNER: "signer", "signeur";
+    PERSON_ALIAS: "other name of a person", "autre nom d’une personne";
+    PERSON_ATTRIBUTE: "attribute of a person", "attribut d’une personne";
     LEXICON: "lexicon", "lexique";
     SIGN: "sign", "signe";
     TOKEN: "token", "occurrence";
@@ -62,6 +64,8 @@ pub fn merged_kind_noun(table: &str) -> InterfaceText {
         ("channel", CHANNEL),
         ("skeleton", SKELETON),
         ("signer", SIGNER),
+        ("person_alias", PERSON_ALIAS),
+        ("person_attribute", PERSON_ATTRIBUTE),
         ("lexicon", LEXICON),
         ("sign", SIGN),
         ("token", TOKEN),

@@ -3,8 +3,10 @@
 //! | module | holds |
 //! |---|---|
 //! | [`annotations`] | changes to annotations in bulk |
+//! | [`people_table`] | people, with their names and attributes |
 
 pub mod annotations;
+pub mod people_table;
 mod table_cells;
 mod table_rows;
 

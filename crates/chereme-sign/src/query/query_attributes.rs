@@ -54,10 +54,17 @@ pub(super) fn opens_name(word: &str) -> bool {
     word == ATTRIBUTE_WORD || word == FRENCH_ATTRIBUTE_WORD
 }
 
-/// Returns the name after `attribute.`, if a word begins so.
-pub(super) fn strip_attribute_prefix(word: &str) -> Option<&str> {
-    let (first, name) = word.split_once('.')?;
-    Some(name).filter(|name| opens_name(&first.to_lowercase()) && !name.is_empty())
+/// The words before the name of something that is said of a signer: `signer.region`.
+const SIGNER_ATTRIBUTE_WORDS: [&str; 2] = ["signer", "signeur"];
+
+/// Returns the name of the attribute that a word is: the name after `attribute.`, or the whole of `signer.region`.
+pub(super) fn attribute_name_of_word(word: &str) -> Option<String> {
+    let (first, name) = word.split_once('.').filter(|(_, name)| !name.is_empty())?;
+    let first = first.to_lowercase();
+    match SIGNER_ATTRIBUTE_WORDS.contains(&first.as_str()) {
+        true => Some(format!("{}.{name}", SIGNER_ATTRIBUTE_WORDS[0])),
+        false => opens_name(&first).then(|| name.to_owned()),
+    }
 }
 
 /// Returns whether the operator and the text after it compare a name with a number, as in `frequency>0.4` or
@@ -225,6 +232,11 @@ mod tests {
                 "attribute(\"Sign Frequency\")=unset",
             ),
             ("attribute.n=2", "attribute.n=2"),
+            ("signer.region=north", "attribute.signer.region=north"),
+            (
+                "Signeur.age>40 placement=chin",
+                "attribute.signer.age>40 placement=chin",
+            ),
             ("attribute.x=*", "attribute.x=*"),
         ] {
             let query: TokenQuery = text.parse().expect(text);

@@ -47,8 +47,8 @@ fn parse_attribute_comparison(
     name: &str,
     at: QueryPlace,
 ) -> Result<Option<TestSubject>, QueryError> {
-    if let Some(name) = query_attributes::strip_attribute_prefix(name) {
-        return query_attributes::parse_attribute_test(cursor, name.to_owned()).map(Some);
+    if let Some(name) = query_attributes::attribute_name_of_word(name) {
+        return query_attributes::parse_attribute_test(cursor, name).map(Some);
     }
     let Err(no_field) = parse_component_field(cursor, at) else {
         return Ok(None);

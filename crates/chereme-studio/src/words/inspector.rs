@@ -48,6 +48,14 @@ texts! {
     TEXT_NEW: "New translation", "Nouvelle traduction";
     REMOVE: "Remove: {what}", "Retirer : {what}";
     HANDEDNESS: "Dominant hand", "Main dominante";
+    OTHER_NAMES: "Other names", "Autres noms";
+    ATTRIBUTES: "Attributes", "Attributs";
+    ATTRIBUTES_SEEN_BY: "Seen by", "Vus par";
+    SEEN_BY_ME: "me alone", "moi seul";
+    SEEN_BY_RESEARCH: "research", "la recherche";
+    SEEN_BY_ALL: "everybody", "tout le monde";
+    SAME_PERSON_AS: "Same person as", "Même personne que";
+    PERSON_TIERS: "participant of {participant} tiers, annotator of {annotator}", "participant de {participant} acteurs, annotateur de {annotator}";
     RIGHT: "right", "droite";
     LEFT: "left", "gauche";
     BOTH: "both", "les deux";

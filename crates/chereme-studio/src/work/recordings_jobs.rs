@@ -1,8 +1,8 @@
 //! Jobs that describe, show and delete recordings, their signers and their signs.
 
 use chereme_corpus::{
-    CorpusAddress, DeleteOptions, FitOptions, LinkedRecordings, MediaChange, ObjectDetails, RecordingChange, RowName,
-    SignChange, SignerChange, TrackChange,
+    CorpusAddress, DeleteOptions, FitOptions, LinkedRecordings, MediaChange, ObjectDetails, PersonChange,
+    RecordingChange, RowName, SignChange, SignerChange, TrackChange,
 };
 
 use super::{CorpusJob, JobAbout, WorkOutcome};
@@ -27,6 +27,16 @@ pub(crate) fn change_track(recording: RowName, track: String, change: TrackChang
 /// Changes a signer.
 pub(crate) fn change_signer(name: RowName, change: SignerChange) -> CorpusJob {
     CorpusJob::new_change_job(move |corpus, _| corpus.change_signer(&name, &change))
+}
+
+/// Changes a person.
+pub(crate) fn change_person(name: RowName, change: PersonChange) -> CorpusJob {
+    CorpusJob::new_change_job(move |corpus, _| corpus.change_person(&name, &change))
+}
+
+/// Makes a person one with another, who stays.
+pub(crate) fn unite_people(person: RowName, into: RowName) -> CorpusJob {
+    CorpusJob::new_change_job(move |corpus, _| corpus.unite_people(&[person], &into))
 }
 
 /// Changes a sign.

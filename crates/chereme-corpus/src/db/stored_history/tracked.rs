@@ -6,10 +6,12 @@ use serde_json::Value;
 use crate::error::CorpusResult;
 
 /// The tables whose rows are recorded, and for each the columns that refer to a row with a uid.
-pub(in crate::db) const TRACKED_TABLE_REFERENCES: [(&str, &[(&str, &str)]); 25] = [
+pub(in crate::db) const TRACKED_TABLE_REFERENCES: [(&str, &[(&str, &str)]); 27] = [
     ("meta", &[]),
     ("lexicon", &[]),
     ("signer", &[]),
+    ("person_alias", &[("signer_id", "signer")]),
+    ("person_attribute", &[("signer_id", "signer")]),
     ("skeleton", &[]),
     ("recording", &[("signer_id", "signer"), ("lexicon_id", "lexicon")]),
     (

@@ -32,7 +32,9 @@ pub(crate) enum NamedRowKind {
 /// Returns row and name of all such rows, by row.
 pub(crate) fn list_row_names(connection: &Connection, named: NamedRowKind) -> CorpusResult<Vec<(i64, String)>> {
     let sql = match named {
-        NamedRowKind::Signer => "SELECT id, name FROM signer ORDER BY id",
+        NamedRowKind::Signer => {
+            "SELECT id, name FROM signer UNION ALL SELECT signer_id, name FROM person_alias ORDER BY 1"
+        }
         NamedRowKind::Recording => "SELECT id, name FROM recording ORDER BY id",
         NamedRowKind::Sign => "SELECT id, gloss FROM sign ORDER BY id",
         NamedRowKind::LexiconEntry => {

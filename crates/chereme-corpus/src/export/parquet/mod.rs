@@ -18,6 +18,7 @@ use rusqlite::Connection;
 use super::csv;
 use super::export_long::LongTable;
 use crate::address::RecordingStretch;
+use crate::consent::ConsentAudience;
 use crate::db::signs;
 use crate::db::stored_attributes;
 use crate::db::stored_columns::{ValueState, phase_name, phase_place};
@@ -68,12 +69,16 @@ fn describe_long_table(long: LongTable) -> String {
 pub(super) fn write_token_parquet(
     connection: &Connection,
     tokens: &[i64],
+    audience: Option<ConsentAudience>,
     out: &mut dyn Write,
     notes: &mut Vec<String>,
     progress: &mut ProgressReceiver<'_>,
 ) -> CorpusResult<()> {
     let mut text = Vec::new();
-    let form = csv::TableForm::new(b',');
+    let form = csv::TableForm {
+        audience,
+        ..csv::TableForm::new(b',')
+    };
     // Both formats then have the same columns and cells.
     csv::write_token_csv(connection, tokens, form, &mut text, notes, progress)?;
     let fault = |error: ::csv::Error| CorpusError::from_wrong_message(error.to_string());

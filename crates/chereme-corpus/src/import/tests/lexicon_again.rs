@@ -255,3 +255,44 @@ fn queries_know_initial_values_and_movements_that_are_none() {
         assert_eq!(total(&mut parts, query), wanted, "{query}");
     }
 }
+
+#[test]
+fn rows_with_ids_stay_themselves_whatever_changes_in_them() {
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("c.chereme");
+    let first = desk.file(
+        "ids.csv",
+        "Signbank ID,Gloss,Handshape\n77,BANK,B\n12,BANK,5\n31,CHAT,A\n40,CHIEN,A\n",
+    );
+    import(&mut corpus, &first, "{}");
+    let tokens: BTreeMap<String, i64> = token_ids_by_attribute(&corpus, "Signbank ID");
+    // Renamed, changed in its handshape, in another order, one gone, one new with the gloss of another.
+    let text = "Signbank ID,Gloss,Handshape\n12,BANK,5\n99,BANK,A\n77,BENCH,B\n31,CHAT,5\n";
+    let report = import(&mut corpus, &desk.file("ids.csv", text), "{}");
+    let said = messages(&report);
+    assert!(said.contains("1 new, 2 changed, 1 as before, 1 gone"), "{said}");
+    let now = token_ids_by_attribute(&corpus, "Signbank ID");
+    for id in ["77", "12", "31", "40"] {
+        assert_eq!(now[id], tokens[id], "{id}");
+    }
+    assert_eq!(total(&mut corpus, "gloss=BENCH configuration=B"), 1);
+    assert_eq!(total(&mut corpus, "gloss=BANK"), 2);
+    assert_eq!(total(&mut corpus, "gloss=CHAT configuration=5"), 1);
+    // Numbers of rows are no ids: the row that comes first now is not the first one of before.
+    let second = desk.file("rows.csv", "id,Gloss,Handshape\n0,UN,B\n1,DEUX,5\n");
+    import(&mut corpus, &second, "{}");
+    let text = "id,Gloss,Handshape\n0,ZERO,A\n1,UN,B\n2,DEUX,5\n";
+    let report = import(&mut corpus, &desk.file("rows.csv", text), "{}");
+    assert!(!messages(&report).contains("recognised by"), "{}", messages(&report));
+    assert_eq!(total(&mut corpus, "gloss=UN configuration=B"), 1);
+}
+
+/// Returns the rows of tokens by the text of an attribute.
+fn token_ids_by_attribute(corpus: &Corpus, name: &str) -> BTreeMap<String, i64> {
+    let connection = corpus.store.read_connection();
+    let mut statement = connection
+        .prepare("SELECT text, token_id FROM attribute WHERE name = ?1")
+        .expect("a statement");
+    let rows = statement.query_map([name], |row| Ok((row.get(0)?, row.get(1)?)));
+    rows.expect("rows").collect::<Result<_, _>>().expect("read")
+}

@@ -121,6 +121,16 @@ fn all_effects() -> Vec<OperationEffect> {
             token: 7,
             gloss: gloss.clone(),
         },
+        Effect::ChangePerson { person: text("Ada") },
+        Effect::UnitePeople {
+            names: vec![text("ada"), text("A.L.")],
+            person: text("Ada"),
+        },
+        Effect::RemovePerson { person: text("Bo") },
+        Effect::ImportPeople {
+            file: text("people.csv"),
+            people: 2,
+        },
         Effect::ChangeLexicon { lexicon: text("NGT") },
         Effect::LinkLexicon {
             lexicon: text("NGT"),

@@ -1,8 +1,10 @@
 //! The details of recordings, signers, signs and values.
 
+use std::collections::BTreeMap;
+
 use chereme_corpus::{
-    MediaChange, RecordingChange, RecordingDetails, RecordingGlance, RowName, SignChange, SignDetails, SignerChange,
-    SignerDetails, SignerRow, TrackKind,
+    ConsentAudience, MediaChange, PersonAttribute, PersonChange, PersonContents, RecordingChange, RecordingDetails,
+    RecordingGlance, RowName, SignChange, SignDetails, SignerChange, SignerDetails, SignerRow, TrackKind,
 };
 use chereme_motion::{BodySide, RecordingInstant};
 use eframe::egui::{CollapsingHeader, Id, Label, RichText, Sense, Ui, vec2};
@@ -275,7 +277,113 @@ pub(super) fn show_signer_details(ui: &mut Ui, seen: &PaneInput<'_>, row: &Signe
     });
 }
 
-pub(super) fn signer_more(it: &mut InspectorPane, ui: &mut Ui, seen: &PaneInput<'_>, signer: &SignerDetails) {
+/// Shows the other names of a person, what is said of them, and with whom they can be made one.
+fn show_person_details(ui: &mut Ui, seen: &PaneInput<'_>, person: &PersonContents, out: &mut CommandOutbox) {
+    let change = |out: &mut CommandOutbox, change: PersonChange| {
+        out.request_work(recordings_jobs::change_person(RowName::Number(person.id), change));
+    };
+    let key = |what: &'static str| Id::unique(("person", what, person.id));
+    show_inspector_grid(ui, "person", |ui| {
+        let now = person.aliases.join("; ");
+        if let Some(text) = show_editable_line(ui, seen, key("names"), words::OTHER_NAMES, &now) {
+            let wanted: Vec<String> = listed_parts(&text).map(str::to_owned).collect();
+            let gone = person.aliases.iter().filter(|alias| !wanted.contains(alias));
+            let remove_aliases = gone.cloned().collect();
+            change(
+                out,
+                PersonChange {
+                    remove_aliases,
+                    add_aliases: wanted,
+                    ..PersonChange::default()
+                },
+            );
+        }
+        let now = attributes_line(&person.attributes);
+        if let Some(text) = show_editable_line(ui, seen, key("attributes"), words::ATTRIBUTES, &now) {
+            let attributes = changed_attributes(&person.attributes, &text);
+            change(
+                out,
+                PersonChange {
+                    attributes,
+                    ..PersonChange::default()
+                },
+            );
+        }
+        if let Some(first) = person.attributes.first() {
+            let all = [
+                (ConsentAudience::Nobody, words::SEEN_BY_ME),
+                (ConsentAudience::Research, words::SEEN_BY_RESEARCH),
+                (ConsentAudience::Public, words::SEEN_BY_ALL),
+            ]
+            .map(|(audience, text)| (audience, seen.say_text(text).to_owned()));
+            if let Some(audience) = show_inspector_choice(ui, seen, words::ATTRIBUTES_SEEN_BY, &first.audience, &all) {
+                change(
+                    out,
+                    PersonChange {
+                        audience: Some(audience),
+                        ..PersonChange::default()
+                    },
+                );
+            }
+        }
+        let others = seen.snapshot.overview.signers.iter().filter(|row| row.id != person.id);
+        let names: Vec<&str> = others.map(|row| row.name.as_str()).collect();
+        let candidates = |typed: &str| fitting_candidates(names.iter().copied(), typed);
+        if let Some(name) = show_line_with_completion(ui, seen, key("same"), words::SAME_PERSON_AS, "", &candidates)
+            && !name.trim().is_empty()
+        {
+            let into = RowName::Text(name.trim().to_owned());
+            out.request_work(recordings_jobs::unite_people(RowName::Number(person.id), into));
+        }
+    });
+    if person.participant_tiers + person.annotator_tiers > 0 {
+        let text = fill_text_braces(
+            seen.say_text(words::PERSON_TIERS),
+            &[
+                ("participant", &person.participant_tiers),
+                ("annotator", &person.annotator_tiers),
+            ],
+        );
+        ui.weak(text);
+    }
+}
+
+/// Returns the parts of a list that a person typed.
+fn listed_parts(text: &str) -> impl Iterator<Item = &str> {
+    text.split(';').map(str::trim).filter(|part| !part.is_empty())
+}
+
+/// Returns what is said of a person in one line: `region=north; age=34`.
+fn attributes_line(attributes: &[PersonAttribute]) -> String {
+    let each = attributes.iter();
+    let parts = each.map(|attribute| format!("{}={}", attribute.name, attribute.text));
+    parts.collect::<Vec<_>>().join("; ")
+}
+
+/// Returns what a typed line says otherwise than before; what it leaves out has an empty text.
+fn changed_attributes(attributes: &[PersonAttribute], line: &str) -> BTreeMap<String, String> {
+    let mut changed: BTreeMap<String, String> = listed_parts(line)
+        .map(|part| part.split_once('=').unwrap_or((part, "")))
+        .map(|(name, text)| (name.trim().to_owned(), text.trim().to_owned()))
+        .collect();
+    for attribute in attributes {
+        match changed.get(&attribute.name) {
+            Some(text) if *text == attribute.text => drop(changed.remove(&attribute.name)),
+            Some(_) => {}
+            None => drop(changed.insert(attribute.name.clone(), String::new())),
+        }
+    }
+    changed
+}
+
+pub(super) fn signer_more(
+    it: &mut InspectorPane,
+    ui: &mut Ui,
+    seen: &PaneInput<'_>,
+    signer: &SignerDetails,
+    out: &mut CommandOutbox,
+) {
+    show_person_details(ui, seen, &signer.person, out);
     show_inspector_lines(ui, seen, "measures", &inspector_data::body_measure_lines(signer));
     let n = signer.recordings.len();
     let text = format!("{} ({n})", seen.say_text(words::RECORDINGS));
@@ -428,5 +536,29 @@ pub(super) fn show_inventory_value(
     if uses > 0 && ui.button(seen.say_text(words::SEARCH_USES)).clicked() {
         let field = stored.inventory_field().to_string();
         out.send_command(WindowCommand::Find(crate::panes::search::with_value("", &field, id)));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_typed_line_of_attributes_says_what_changes() {
+        let said = |name: &str, text: &str| PersonAttribute {
+            name: name.to_owned(),
+            text: text.to_owned(),
+            number: None,
+            audience: ConsentAudience::Nobody,
+        };
+        let known = [said("region", "north"), said("age", "34"), said("school", "A")];
+        assert_eq!(attributes_line(&known), "region=north; age=34; school=A");
+        let changed = changed_attributes(&known, "region = south;age=34 ; deaf=yes;");
+        let wanted = [("deaf", "yes"), ("region", "south"), ("school", "")];
+        assert_eq!(
+            changed,
+            wanted.map(|(name, text)| (name.to_owned(), text.to_owned())).into()
+        );
+        assert_eq!(changed_attributes(&known, &attributes_line(&known)), BTreeMap::new());
     }
 }

@@ -126,7 +126,7 @@ pub(super) fn show_thing_details(
         Some(Err(wrong)) => drop(ui.label(RichText::new(wrong).color(seen.pane_colours().trouble))),
         Some(Ok(ObjectDetails::Token(token))) => super::inspector_token::show_token_details(it, ui, seen, &token, out),
         Some(Ok(ObjectDetails::Sign(sign))) => about::show_sign_details(it, ui, seen, &sign, out),
-        Some(Ok(ObjectDetails::Signer(signer))) => signer_more(it, ui, seen, &signer),
+        Some(Ok(ObjectDetails::Signer(signer))) => signer_more(it, ui, seen, &signer, out),
         Some(Ok(ObjectDetails::Recording(recording))) => recording_more(ui, seen, &recording, out),
         Some(Ok(ObjectDetails::Value(inventory, value, uses))) => {
             about::show_inventory_value(it, ui, seen, inventory, &value, uses, out);
