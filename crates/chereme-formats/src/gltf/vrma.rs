@@ -4,7 +4,7 @@
 //! can use them. Source: the VRM specification of the VRM Consortium.
 
 use chereme_motion::glam::{DQuat, DVec3};
-use chereme_motion::{BodyAnatomy, BodyPart, BodySide, Clip, HandFinger, ModelPose};
+use chereme_motion::{BodyAnatomy, BodyPart, BodySide, Clip, HandFinger, ModelPose, Skeleton};
 use serde_json::{Map, Value, json};
 
 use crate::reach::{self, TooFar};
@@ -63,171 +63,226 @@ pub fn write_vrma(
     face: &AvatarFace,
     about: &GlbDescription,
 ) -> Result<Vec<u8>, VrmaWriteError> {
-    let skeleton = clip.clip_skeleton();
     if clip.clip_frame_count() == 0 {
         return Err(VrmaWriteError::NoAvatar("the movement has no frames".to_owned()));
     }
-    let mut bones: Vec<(String, usize)> = Vec::new();
-    for (part, joint, _) in anatomy.found_parts() {
-        let is_taken = bones.iter().any(|(_, taken)| *taken == joint);
-        if let Some(name) = vrm_bone_name(part).filter(|_| !is_taken) {
-            bones.push((name, joint));
+    let avatar = AvatarBones::find_avatar_bones(clip, anatomy)?;
+    let poses: Vec<ModelPose> = (0..clip.clip_frame_count())
+        .map(|frame| clip.model_pose(frame))
+        .collect();
+    let mut animation = VrmaAnimation::new(&avatar, clip);
+    for (at, (_, joint)) in avatar.bones.iter().enumerate() {
+        animation.add_channel(at, "rotation", &avatar.bone_rotations(&poses, at));
+        if at == avatar.hips {
+            let positions = poses.iter().map(|pose| pose.model_joint_position(*joint));
+            let places: Vec<f32> = positions.flat_map(to_gltf_vector).collect();
+            animation.add_channel(at, "translation", &places);
         }
     }
-    for needed in ["hips", "leftUpperArm", "rightUpperArm"] {
-        if !bones.iter().any(|(name, _)| name == needed) {
-            let reason = format!("the skeleton has no {needed}, which avatars need");
-            return Err(VrmaWriteError::NoAvatar(reason));
-        }
+    let human = (avatar.bones.iter().enumerate()).map(|(at, (name, _))| (name.clone(), json!({"node": at})));
+    let mut extension = json!({"specVersion": "1.0", "humanoid": {"humanBones": human.collect::<Map<_, _>>()}});
+    if let Some(expressions) = animation.add_expressions(face, poses.len()) {
+        extension["expressions"] = expressions;
     }
-    reach::check_clip_reach(clip)?;
-    bones.sort_by_key(|(_, joint)| *joint);
-    let rest = anatomy.clone().with_clip(clip).t_pose(skeleton);
-    let parents: Vec<Option<usize>> = bones
-        .iter()
-        .map(|(_, joint)| {
+    if face.gaze.len() == poses.len() {
+        let gaze_turns = face.gaze.iter().map(|gaze| avatar_face::eye_rotation_from_gaze(*gaze));
+        let turns: Vec<f32> = gaze_turns.flat_map(to_gltf_rotation).collect();
+        let node = animation.add_root_node(json!({"name": "look_at"}));
+        animation.add_channel(node, "rotation", &turns);
+        extension["lookAt"] = json!({"node": node, "offsetFromHeadBone": EYE_OFFSET_METRES});
+    }
+    Ok(animation.pack_vrma_file(&extension, clip, about))
+}
+
+/// The bones of an avatar in a skeleton, in the order of their joints.
+struct AvatarBones<'a> {
+    skeleton: &'a Skeleton,
+    rest: ModelPose,
+    /// The bones' names in VRM, and their joints.
+    bones: Vec<(String, usize)>,
+    parents: Vec<Option<usize>>,
+    hips: usize,
+    /// Raises the lowest bone of the rest pose to height 0, in metres.
+    lift: f64,
+}
+
+impl<'a> AvatarBones<'a> {
+    fn find_avatar_bones(clip: &'a Clip, anatomy: &BodyAnatomy) -> Result<Self, VrmaWriteError> {
+        let skeleton = clip.clip_skeleton();
+        let mut bones: Vec<(String, usize)> = Vec::new();
+        for (part, joint, _) in anatomy.found_parts() {
+            let is_taken = bones.iter().any(|(_, taken)| *taken == joint);
+            if let Some(name) = vrm_bone_name(part).filter(|_| !is_taken) {
+                bones.push((name, joint));
+            }
+        }
+        for needed in ["hips", "leftUpperArm", "rightUpperArm"] {
+            if !bones.iter().any(|(name, _)| name == needed) {
+                let reason = format!("the skeleton has no {needed}, which avatars need");
+                return Err(VrmaWriteError::NoAvatar(reason));
+            }
+        }
+        reach::check_clip_reach(clip)?;
+        bones.sort_by_key(|(_, joint)| *joint);
+        let rest = anatomy.clone().with_clip(clip).t_pose(skeleton);
+        let hips = bones.iter().position(|(name, _)| name == "hips").unwrap_or(0);
+        let parent = |(at, (_, joint)): (usize, &(String, usize))| {
             let ancestor_joints = skeleton.joint_ancestors(*joint);
             let mut above = ancestor_joints.filter(|ancestor| ancestor != joint);
-            above.find_map(|ancestor| bones.iter().position(|(_, bone)| *bone == ancestor))
+            let bone = above.find_map(|ancestor| bones.iter().position(|(_, bone)| *bone == ancestor));
+            // The hips come first in VRM: other roots hang below them.
+            bone.or((at != hips).then_some(hips))
+        };
+        let heights = bones.iter().map(|(_, joint)| rest.model_joint_position(*joint).y);
+        Ok(Self {
+            parents: bones.iter().enumerate().map(parent).collect(),
+            lift: -heights.fold(f64::INFINITY, f64::min),
+            skeleton,
+            rest,
+            bones,
+            hips,
         })
-        .collect();
-    // The hips come first: other roots hang below them.
-    let hips = bones.iter().position(|(name, _)| name == "hips").unwrap_or(0);
-    let parent = |at: usize| parents[at].or((at != hips).then_some(hips));
-    let lowest = bones.iter().map(|(_, joint)| rest.model_joint_position(*joint).y);
-    let lift = -lowest.fold(f64::INFINITY, f64::min);
-    let place = |at: usize| rest.model_joint_position(bones[at].1) + DVec3::Y * lift;
-    let mut nodes: Vec<Value> = Vec::new();
-    for (at, (name, joint)) in bones.iter().enumerate() {
-        let from = parent(at).map_or(DVec3::ZERO, place);
-        let children: Vec<usize> = (0..bones.len()).filter(|child| parent(*child) == Some(at)).collect();
+    }
+
+    /// Returns the node of a bone, placed from its parent's.
+    fn bone_node(&self, at: usize) -> Value {
+        let (name, joint) = &self.bones[at];
+        let place = |at: usize| self.rest.model_joint_position(self.bones[at].1) + DVec3::Y * self.lift;
+        let from = self.parents[at].map_or(DVec3::ZERO, place);
+        let is_child = |child: &usize| self.parents[*child] == Some(at);
+        let children: Vec<usize> = (0..self.bones.len()).filter(is_child).collect();
         let mut node = json!({"name": name, "translation": to_gltf_vector(place(at) - from),
-            "extras": {"name": skeleton.joint_at(*joint).name}});
-        if let Some(tip) = skeleton.joint_at(*joint).tip {
-            node["extras"]["tip"] = json!(to_gltf_vector(rest.model_joint_rotation(*joint) * tip));
+            "extras": {"name": self.skeleton.joint_at(*joint).name}});
+        if let Some(tip) = self.skeleton.joint_at(*joint).tip {
+            node["extras"]["tip"] = json!(to_gltf_vector(self.rest.model_joint_rotation(*joint) * tip));
         }
         if !children.is_empty() {
             node["children"] = json!(children);
         }
-        nodes.push(node);
+        node
     }
-    let mut parts = GlbParts::default();
-    let rate = clip.clip_frame_rate();
-    let times: Vec<f32> = (0..clip.clip_frame_count())
-        .map(|frame| (frame as f64 * rate.frame_time()) as f32)
-        .collect();
-    let input = parts.add_float_accessor(&times, "SCALAR", 1, None);
-    parts.set_accessor_bounds(input, &times, 1);
-    let (mut samplers, mut channels) = (Vec::new(), Vec::new());
-    let mut add = |node: usize, path: &str, output: usize| {
-        channels.push(json!({"sampler": samplers.len(), "target": {"node": node, "path": path}}));
-        samplers.push(json!({"input": input, "output": output, "interpolation": "LINEAR"}));
-    };
-    let poses: Vec<ModelPose> = (0..clip.clip_frame_count())
-        .map(|frame| clip.model_pose(frame))
-        .collect();
-    for (at, (_, joint)) in bones.iter().enumerate() {
+
+    /// Returns the rotations of a bone from rest in each pose, relative to its parent's.
+    fn bone_rotations(&self, poses: &[ModelPose], at: usize) -> Vec<f32> {
         let from_rest = |pose: &ModelPose, at: usize| {
-            let joint = bones[at].1;
-            pose.model_joint_rotation(joint) * rest.model_joint_rotation(joint).inverse()
+            let joint = self.bones[at].1;
+            pose.model_joint_rotation(joint) * self.rest.model_joint_rotation(joint).inverse()
         };
         let mut before = DQuat::IDENTITY;
         let mut turns = Vec::with_capacity(4 * poses.len());
-        for pose in &poses {
-            let above = parent(at).map_or(DQuat::IDENTITY, |parent| from_rest(pose, parent));
+        for pose in poses {
+            let above = self.parents[at].map_or(DQuat::IDENTITY, |parent| from_rest(pose, parent));
             let bone_turn = above.inverse() * from_rest(pose, at);
-            let near = if before.dot(bone_turn) < 0.0 {
+            // Players interpolate the four numbers, so that neighbours must lie in one half of their sphere.
+            before = if before.dot(bone_turn) < 0.0 {
                 -bone_turn
             } else {
                 bone_turn
             };
-            turns.extend(to_gltf_rotation(near));
-            before = near;
+            turns.extend(to_gltf_rotation(before));
         }
-        let output = parts.add_float_accessor(&turns, "VEC4", 4, None);
-        add(at, "rotation", output);
-        if at == hips {
-            let place_numbers = poses
-                .iter()
-                .flat_map(|pose| to_gltf_vector(pose.model_joint_position(*joint)));
-            let places: Vec<f32> = place_numbers.collect();
-            let output = parts.add_float_accessor(&places, "VEC3", 3, None);
-            add(at, "translation", output);
-        }
+        turns
     }
-    let (mut presets, mut customs) = (Map::new(), Map::new());
-    let mut roots = vec![hips];
-    let expressions: Vec<&ExpressionTrack> = face
-        .expressions
-        .iter()
-        .filter(|expression| expression.weights.len() == poses.len())
-        .collect();
-    let expression_names: Vec<String> = expressions
-        .iter()
-        .map(|expression| plain_node_name(&expression.name))
-        .collect();
-    let names = unique_track_names(expression_names.iter().map(String::as_str), "expression");
-    for (expression, name) in expressions.into_iter().zip(names) {
-        let node = nodes.len();
-        let name = plain_node_name(&name);
-        let mut made = json!({"name": format!("expression_{name}")});
-        if name != expression.name {
-            made["extras"] = json!({"name": expression.name});
-        }
-        nodes.push(made);
-        roots.push(node);
-        let frame_weights = expression.weights.iter();
-        let weights: Vec<f32> = frame_weights
-            .flat_map(|weight| [weight.clamp(0.0, 1.0) as f32, 0.0, 0.0])
+}
+
+/// The nodes of a VRMA file and their movement.
+struct VrmaAnimation {
+    nodes: Vec<Value>,
+    roots: Vec<usize>,
+    parts: GlbParts,
+    /// The accessor of the times of frames.
+    input: usize,
+    samplers: Vec<Value>,
+    channels: Vec<Value>,
+}
+
+impl VrmaAnimation {
+    fn new(avatar: &AvatarBones<'_>, clip: &Clip) -> Self {
+        let frame_time = clip.clip_frame_rate().frame_time();
+        let times: Vec<f32> = (0..clip.clip_frame_count())
+            .map(|frame| (frame as f64 * frame_time) as f32)
             .collect();
-        let output = parts.add_float_accessor(&weights, "VEC3", 3, None);
-        add(node, "translation", output);
-        let preset = VRM_PRESET_NAMES.contains(&name.as_str());
-        let all = if preset { &mut presets } else { &mut customs };
-        all.insert(name, json!({"node": node}));
+        let mut parts = GlbParts::default();
+        let input = parts.add_float_accessor(&times, "SCALAR", 1, None);
+        parts.set_accessor_bounds(input, &times, 1);
+        Self {
+            nodes: (0..avatar.bones.len()).map(|at| avatar.bone_node(at)).collect(),
+            roots: vec![avatar.hips],
+            parts,
+            input,
+            samplers: Vec::new(),
+            channels: Vec::new(),
+        }
     }
-    let look = (face.gaze.len() == poses.len()).then(|| {
-        nodes.push(json!({"name": "look_at"}));
-        roots.push(nodes.len() - 1);
-        let gaze_turns = face.gaze.iter().map(|gaze| avatar_face::eye_rotation_from_gaze(*gaze));
-        let turns: Vec<f32> = gaze_turns.flat_map(to_gltf_rotation).collect();
-        let output = parts.add_float_accessor(&turns, "VEC4", 4, None);
-        add(nodes.len() - 1, "rotation", output);
-        nodes.len() - 1
-    });
-    let human: Map<String, Value> = bones
-        .iter()
-        .enumerate()
-        .map(|(at, (name, _))| (name.clone(), json!({"node": at})))
-        .collect();
-    let mut extension = json!({"specVersion": "1.0", "humanoid": {"humanBones": human}});
-    if !presets.is_empty() || !customs.is_empty() {
-        extension["expressions"] = json!({"preset": presets, "custom": customs});
+
+    fn add_root_node(&mut self, node: Value) -> usize {
+        self.nodes.push(node);
+        self.roots.push(self.nodes.len() - 1);
+        self.nodes.len() - 1
     }
-    if let Some(node) = look {
-        extension["lookAt"] = json!({"node": node, "offsetFromHeadBone": EYE_OFFSET_METRES});
+
+    /// Moves a node along `path`, its rotation (quaternions) or translation (vectors), by the numbers of each frame.
+    fn add_channel(&mut self, node: usize, path: &str, numbers: &[f32]) {
+        let (kind, size) = match path {
+            "rotation" => ("VEC4", 4),
+            _ => ("VEC3", 3),
+        };
+        let output = self.parts.add_float_accessor(numbers, kind, size, None);
+        let sampler = self.samplers.len();
+        self.channels
+            .push(json!({"sampler": sampler, "target": {"node": node, "path": path}}));
+        self.samplers
+            .push(json!({"input": self.input, "output": output, "interpolation": "LINEAR"}));
     }
-    let mut document = json!({
-        "asset": {"version": "2.0", "generator": format!("Chereme {}", env!("CARGO_PKG_VERSION"))},
-        "extensionsUsed": ["VRMC_vrm_animation"],
-        "extensions": {"VRMC_vrm_animation": extension},
-        "scene": 0,
-        "scenes": [{"name": about.glb_scene_name(), "nodes": roots}],
-        "nodes": nodes,
-        "animations": [{
-            "name": about.name,
-            "channels": channels,
-            "samplers": samplers,
-            "extras": {"annotations": about.notes, "frames_per_second": rate.per_second()},
-        }],
-        "buffers": [{"byteLength": parts.bytes.len()}],
-        "bufferViews": parts.views,
-        "accessors": parts.accessors,
-    });
-    if let Some(licence) = &about.licence {
-        document["asset"]["copyright"] = licence.as_str().into();
+
+    /// Adds the expressions that have a weight in each frame; returns how the extension names their nodes.
+    fn add_expressions(&mut self, face: &AvatarFace, frames: usize) -> Option<Value> {
+        let with_weights = |expression: &&ExpressionTrack| expression.weights.len() == frames;
+        let expressions: Vec<&ExpressionTrack> = face.expressions.iter().filter(with_weights).collect();
+        let plain_names = expressions.iter().map(|expression| plain_node_name(&expression.name));
+        let plain_names: Vec<String> = plain_names.collect();
+        let names = unique_track_names(plain_names.iter().map(String::as_str), "expression");
+        let (mut presets, mut customs) = (Map::new(), Map::new());
+        for (expression, name) in expressions.iter().zip(names) {
+            let name = plain_node_name(&name);
+            let mut made = json!({"name": format!("expression_{name}")});
+            if name != expression.name {
+                made["extras"] = json!({"name": expression.name});
+            }
+            let node = self.add_root_node(made);
+            // VRM reads the weight from the translation along x, from 0 to 1.
+            let frame_weights = expression.weights.iter();
+            let weights = frame_weights.flat_map(|weight| [weight.clamp(0.0, 1.0) as f32, 0.0, 0.0]);
+            self.add_channel(node, "translation", &weights.collect::<Vec<_>>());
+            let all = if is_preset(&name) { &mut presets } else { &mut customs };
+            all.insert(name, json!({"node": node}));
+        }
+        (!expressions.is_empty()).then(|| json!({"preset": presets, "custom": customs}))
     }
-    Ok(pack_glb_container(&document, parts.bytes))
+
+    fn pack_vrma_file(self, extension: &Value, clip: &Clip, about: &GlbDescription) -> Vec<u8> {
+        let mut document = json!({
+            "asset": {"version": "2.0", "generator": format!("Chereme {}", env!("CARGO_PKG_VERSION"))},
+            "extensionsUsed": ["VRMC_vrm_animation"],
+            "extensions": {"VRMC_vrm_animation": extension},
+            "scene": 0,
+            "scenes": [{"name": about.glb_scene_name(), "nodes": self.roots}],
+            "nodes": self.nodes,
+            "animations": [{
+                "name": about.name,
+                "channels": self.channels,
+                "samplers": self.samplers,
+                "extras": {"annotations": about.notes, "frames_per_second": clip.clip_frame_rate().per_second()},
+            }],
+            "buffers": [{"byteLength": self.parts.bytes.len()}],
+            "bufferViews": self.parts.views,
+            "accessors": self.parts.accessors,
+        });
+        if let Some(licence) = &about.licence {
+            document["asset"]["copyright"] = licence.as_str().into();
+        }
+        pack_glb_container(&document, self.parts.bytes)
+    }
 }
 
 /// The bones that VRM requires.
