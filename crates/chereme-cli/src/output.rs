@@ -13,12 +13,15 @@ use chereme_corpus::remedy::ErrorRemedy;
 use chereme_corpus::words::{
     InterfaceLanguage, InterfaceText, counted_in, fill_text_braces, filled_message, trouble_words,
 };
-use chereme_corpus::{ProgressListener, ProgressStep, ProgressUnit};
+use chereme_corpus::{ProgressListener, ProgressReceiver, ProgressStep, ProgressUnit};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::{table, words};
+
+/// A column of a table of items: its title, and the text of its cell for an item.
+pub(crate) type ItemColumn<'c, T> = (&'c str, &'c dyn Fn(&T) -> String);
 
 /// The output of a command. If its reader stops reading early, the program ends quietly.
 pub(crate) struct CommandOutput {
@@ -99,6 +102,17 @@ impl CommandOutput {
         self.write_named_columns(&titles.collect::<Vec<_>>(), rows)
     }
 
+    /// Writes a table for people with a row for each item and its titles in the language of the output.
+    pub(crate) fn write_item_table<'items, T: 'items>(
+        &mut self,
+        items: impl IntoIterator<Item = &'items T>,
+        columns: &[ItemColumn<'_, T>],
+    ) -> Result<()> {
+        let titles: Vec<&str> = columns.iter().map(|(title, _)| *title).collect();
+        let row = |item| columns.iter().map(|(_, cell)| cell(item)).collect();
+        self.write_titled_table(&titles, &items.into_iter().map(row).collect::<Vec<_>>())
+    }
+
     /// Writes a table for people under names that are the same in every language, shortened to the largest width.
     pub(crate) fn write_named_columns(&mut self, header: &[&str], rows: &[Vec<String>]) -> Result<()> {
         if self.json {
@@ -128,6 +142,11 @@ impl CommandOutput {
     /// Writes a warning of the library in the language of the output.
     pub(crate) fn write_warning(&mut self, warning: &str) -> Result<()> {
         self.write_remark(trouble_words::WARNING, warning)
+    }
+
+    /// Writes several warnings of the library, one after the other.
+    pub(crate) fn write_warnings<'w>(&mut self, warnings: impl IntoIterator<Item = &'w String>) -> Result<()> {
+        warnings.into_iter().try_for_each(|warning| self.write_warning(warning))
     }
 
     /// Writes a note of the library in the language of the output.
@@ -254,6 +273,11 @@ pub(crate) fn report_usage_error(
         print_stderr_note(&text);
     }
     ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2))
+}
+
+/// Does long work while a progress bar is shown, which is gone when the work is done.
+pub(crate) fn with_progress_bar<T>(work: impl FnOnce(&mut ProgressReceiver<'_>) -> T) -> T {
+    work(&mut ProgressReceiver::new(&mut CommandProgressBar::new()))
 }
 
 /// A progress bar, shown only on a terminal.

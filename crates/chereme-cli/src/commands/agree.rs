@@ -4,13 +4,13 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use chereme_corpus::{
-    AgreeOptions, AnnotatorAgreement, CorpusError, DisagreementSide, MeasureFigure, NumberQuartiles, ProgressReceiver,
-    RowName, TableMoment, USUAL_MEASURES, ValueDisagreement,
+    AgreeOptions, AnnotatorAgreement, CorpusError, DisagreementSide, MeasureFigure, NumberQuartiles, RowName,
+    TableMoment, USUAL_MEASURES, ValueDisagreement,
 };
 use serde_json::json;
 
 use crate::args::CommandLine;
-use crate::output::{CommandOutput, CommandProgressBar};
+use crate::output::{CommandOutput, with_progress_bar};
 
 /// Measure how far two annotators agree, on which values they differ, and where
 ///
@@ -141,15 +141,13 @@ impl AgreeArgs {
 pub(super) fn run(cli: &CommandLine, args: &AgreeArgs, output: &mut CommandOutput) -> Result<()> {
     let mut corpus = cli.open_cli_corpus(&args.corpus)?;
     let options = args.agreement_arg_options()?;
-    let mut bar = CommandProgressBar::new();
-    let mut progress = ProgressReceiver::new(&mut bar);
-    let agreement = corpus.compare_annotators(&options, &mut progress)?;
+    let agreement = with_progress_bar(|progress| corpus.compare_annotators(&options, progress))?;
     let adjudicated = match &args.into {
-        Some(into) => Some(corpus.adjudicate_tiers(&options, into, &mut progress)?),
+        Some(into) => Some(with_progress_bar(|progress| {
+            corpus.adjudicate_tiers(&options, into, progress)
+        })?),
         None => None,
     };
-    // The bar is taken away before tables are printed over it.
-    drop(bar);
     print_agreement(&agreement, args, output)?;
     let mut document = serde_json::to_value(&agreement)?;
     if args.confusion {
@@ -180,9 +178,7 @@ pub(super) fn run(cli: &CommandLine, args: &AgreeArgs, output: &mut CommandOutpu
 
 /// Prints counts, measures, and the table of values.
 fn print_agreement(found: &AnnotatorAgreement, args: &AgreeArgs, output: &mut CommandOutput) -> Result<()> {
-    for finding in &found.findings {
-        output.write_warning(finding)?;
-    }
+    output.write_warnings(&found.findings)?;
     let counts = &found.counts;
     output.filled_line(
         "{a} has {n} units and {b} has {m}, in {pairs}",
@@ -332,22 +328,15 @@ fn quartiles(it: &NumberQuartiles) -> String {
 }
 
 fn print_annotator_confusion(found: &AnnotatorAgreement, output: &mut CommandOutput) -> Result<()> {
-    let rows: Vec<Vec<String>> = found
-        .confusion
-        .iter()
-        .map(|entry| {
-            vec![
-                entry.count.to_string(),
-                entry.a.clone(),
-                entry.b.clone(),
-                entry.only_a.join(" "),
-                entry.only_b.join(" "),
-            ]
-        })
-        .collect();
-    output.write_titled_table(
-        &["times", "a", "b", "features of a alone", "features of b alone"],
-        &rows,
+    output.write_item_table(
+        &found.confusion,
+        &[
+            ("times", &|entry| entry.count.to_string()),
+            ("a", &|entry| entry.a.clone()),
+            ("b", &|entry| entry.b.clone()),
+            ("features of a alone", &|entry| entry.only_a.join(" ")),
+            ("features of b alone", &|entry| entry.only_b.join(" ")),
+        ],
     )
 }
 
@@ -358,39 +347,29 @@ fn print_disagreements(found: &[ValueDisagreement], output: &mut CommandOutput) 
             .map(|side| side.value.clone())
             .unwrap_or_default()
     };
-    let rows: Vec<Vec<String>> = found
-        .iter()
-        .map(|disagreement| {
-            let apart = |of: fn(&DisagreementSide) -> i64| match (&disagreement.a, &disagreement.b) {
-                (Some(a), Some(b)) => format!("{:+.0}", (of(b) - of(a)) as f64 / 1000.0),
-                _ => String::new(),
-            };
-            let seconds = |micros: i64| format!("{:.3}", micros as f64 / 1e6);
-            vec![
-                disagreement.recording.clone(),
-                seconds(disagreement.start_us),
-                seconds(disagreement.end_us),
-                disagreement.kind.disagreement_kind_name().to_owned(),
-                side(&disagreement.a),
-                side(&disagreement.b),
-                apart(|side| side.start_us),
-                apart(|side| side.end_us),
-                format!("{:.2}", disagreement.cost),
-            ]
-        })
-        .collect();
-    let titles = [
-        "recording",
-        "from (s)",
-        "to (s)",
-        "kind",
-        "a",
-        "b",
-        "start (ms)",
-        "end (ms)",
-        "cost",
-    ];
-    output.write_titled_table(&titles, &rows)
+    let apart =
+        |disagreement: &ValueDisagreement, time: fn(&DisagreementSide) -> i64| match (&disagreement.a, &disagreement.b)
+        {
+            (Some(a), Some(b)) => format!("{:+.0}", (time(b) - time(a)) as f64 / 1000.0),
+            _ => String::new(),
+        };
+    let seconds = |micros: i64| format!("{:.3}", micros as f64 / 1e6);
+    output.write_item_table(
+        found,
+        &[
+            ("recording", &|disagreement| disagreement.recording.clone()),
+            ("from (s)", &|disagreement| seconds(disagreement.start_us)),
+            ("to (s)", &|disagreement| seconds(disagreement.end_us)),
+            ("kind", &|disagreement| {
+                disagreement.kind.disagreement_kind_name().to_owned()
+            }),
+            ("a", &|disagreement| side(&disagreement.a)),
+            ("b", &|disagreement| side(&disagreement.b)),
+            ("start (ms)", &|disagreement| apart(disagreement, |side| side.start_us)),
+            ("end (ms)", &|disagreement| apart(disagreement, |side| side.end_us)),
+            ("cost", &|disagreement| format!("{:.2}", disagreement.cost)),
+        ],
+    )
 }
 
 #[cfg(test)]

@@ -8,14 +8,14 @@ use chereme_corpus::words::history_words::annotation_sentence;
 use chereme_corpus::words::{fill_text_braces, trouble_words};
 use chereme_corpus::{
     AnnotateOptions, AnnotateReport, AnnotationAction, AnnotationChange, AnnotationName, Corpus, CorpusAddress,
-    CorpusError, NeighbourMode, ProgressReceiver, ReportFinding, RowName, TableMoment, TableTimeUnit, TierRequestName,
-    TierRoundWork, TierSelection, ValueSearch,
+    CorpusError, NeighbourMode, ReportFinding, RowName, TableMoment, TableTimeUnit, TierRequestName, TierRoundWork,
+    TierSelection, ValueSearch,
 };
 use clap::Subcommand;
 
 use super::tiers_command;
 use crate::args::{CommandLine, NamedChoices};
-use crate::output::{CommandOutput, CommandProgressBar};
+use crate::output::{CommandOutput, with_progress_bar};
 use crate::streams;
 
 /// Add, change, move, split, merge, replace and remove annotations and tiers; in bulk from a table
@@ -243,9 +243,7 @@ pub(super) fn run(cli: &CommandLine, args: &AnnotateArgs, output: &mut CommandOu
         action => to_annotation_actions(action, recording)?,
     };
     let changes: Vec<AnnotationChange> = actions.into_iter().map(AnnotationChange::from).collect();
-    let mut bar = CommandProgressBar::new();
-    let report = corpus.annotate_corpus(&changes, &options, &mut ProgressReceiver::new(&mut bar))?;
-    drop(bar);
+    let report = with_progress_bar(|progress| corpus.annotate_corpus(&changes, &options, progress))?;
     print_annotate_report(report, args.ids, output)
 }
 
@@ -319,9 +317,9 @@ fn annotate_from_table(
 ) -> Result<(AnnotateReport, Vec<ReportFinding>)> {
     let bytes = streams::read_file_or_stdin(file)?;
     let name = file.display().to_string();
-    let mut bar = CommandProgressBar::new();
-    let progress = &mut ProgressReceiver::new(&mut bar);
-    Ok(corpus.annotate_table(&bytes, &name, recording, options, progress)?)
+    Ok(with_progress_bar(|progress| {
+        corpus.annotate_table(&bytes, &name, recording, options, progress)
+    })?)
 }
 
 fn paste_annotation_table(
@@ -348,10 +346,8 @@ fn paste_annotation_table(
             .with_error_place(&name)
             .with_advice("save it as UTF-8")
     })?;
-    let mut bar = CommandProgressBar::new();
-    let progress = &mut ProgressReceiver::new(&mut bar);
-    let (report, odd) = corpus.paste_annotations(recording, &text, &name, &options, progress)?;
-    drop(bar);
+    let (report, odd) =
+        with_progress_bar(|progress| corpus.paste_annotations(recording, &text, &name, &options, progress))?;
     for line in &odd {
         let fault_text = output.translate_message(&line.odd_line_fault());
         let place = fill_text_braces(output.output_text(trouble_words::LINE), &[("n", &line.line)]);
@@ -445,10 +441,7 @@ fn replace_annotation_texts(
         recording: recording.cloned(),
         tiers: tiers.clone(),
     };
-    let mut bar = CommandProgressBar::new();
-    let progress = &mut ProgressReceiver::new(&mut bar);
-    let done = corpus.replace_values(&find, with, &within, *dry_run, progress)?;
-    drop(bar);
+    let done = with_progress_bar(|progress| corpus.replace_values(&find, with, &within, *dry_run, progress))?;
     for value in done.values.iter().take(MAX_PRINTED_IDS) {
         let start_seconds = value.start_us as f64 / 1e6;
         output.filled_line(
@@ -496,9 +489,7 @@ fn shift_annotations(
         recording: recording.cloned(),
         tiers: tiers.clone(),
     };
-    let mut bar = CommandProgressBar::new();
-    let report = corpus.shift_tiers(&within, *by, dry_run, &mut ProgressReceiver::new(&mut bar))?;
-    drop(bar);
+    let report = with_progress_bar(|progress| corpus.shift_tiers(&within, *by, dry_run, progress))?;
     if dry_run {
         output.write_output_line("nothing is written; it would be:")?;
     }

@@ -4,10 +4,9 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use anyhow::Result;
-use chereme_corpus::ProgressReceiver;
 
 use crate::args::CommandLine;
-use crate::output::{CommandOutput, CommandProgressBar};
+use crate::output::{CommandOutput, with_progress_bar};
 
 /// Look for damage: database, rows, files and blocks by their hashes, tokens, history, search index
 ///
@@ -30,9 +29,7 @@ pub(super) fn run(cli: &CommandLine, args: &CheckArgs, output: &mut CommandOutpu
     if args.accept {
         corpus.accept_rows()?;
     }
-    let mut bar = CommandProgressBar::new();
-    let report = corpus.check_corpus(args.mend, &mut ProgressReceiver::new(&mut bar))?;
-    drop(bar);
+    let report = with_progress_bar(|progress| corpus.check_corpus(args.mend, progress))?;
     let questions = report.questions.len() as u64;
     for fault in report.all_findings() {
         output.write_output_line(format!(

@@ -4,12 +4,12 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use chereme_corpus::{
-    ChooseOptions, ExpressionFunction, NoPath, PerformanceChoice, ProgressReceiver, RankedPerformance, RankingCriterion,
+    ChooseOptions, ExpressionFunction, NoPath, PerformanceChoice, RankedPerformance, RankingCriterion,
 };
 use serde_json::json;
 
 use crate::args::{CommandLine, NamedChoices};
-use crate::output::{CommandOutput, CommandProgressBar};
+use crate::output::{CommandOutput, with_progress_bar};
 
 /// Rank recorded expressions of the face, such as those of a negation, for a sentence, and animate it with one of them
 ///
@@ -108,11 +108,9 @@ pub(super) fn run(cli: &CommandLine, args: &ChooseArgs, output: &mut CommandOutp
         limit: args.limit,
         ..args.comparing.choose_options()
     };
-    let mut bar = CommandProgressBar::new();
-    let progress = &mut ProgressReceiver::new(&mut bar);
     let function = ExpressionFunction::from_function_name(&args.function);
-    let choice = corpus.choose_performances(&function, &args.target.parse()?, &options, progress)?;
-    drop(bar);
+    let target = args.target.parse()?;
+    let choice = with_progress_bar(|progress| corpus.choose_performances(&function, &target, &options, progress))?;
     print_choice(&choice, output)?;
     let Some(gloss) = &args.gloss else {
         return output.set_json_document(choice);
@@ -156,38 +154,26 @@ fn print_choice(choice: &PerformanceChoice, output: &mut CommandOutput) -> Resul
         let phase = ranked.parts.phases.get(at).and_then(|phase| phase.normalized);
         phase.map_or("-".to_owned(), |number| format!("{number:.3}"))
     };
-    let rows: Vec<Vec<String>> = choice
-        .ranking
-        .iter()
-        .map(|ranked| {
-            let most = ranked.parts.channels.first();
-            vec![
-                ranked.token.clone(),
-                ranked.recording.clone(),
-                format!("{:.3}", ranked.score),
-                format!("{:.2}", ranked.parts.stretch),
-                part(ranked, 0),
-                part(ranked, 1),
-                part(ranked, 2),
-                part(ranked, 3),
-                most.map_or(String::new(), |channel| {
-                    format!("{} {:.2}", channel.name, channel.difference)
-                }),
-            ]
+    let most_different = |ranked: &RankedPerformance| {
+        let most = ranked.parts.channels.first();
+        most.map_or(String::new(), |channel| {
+            format!("{} {:.2}", channel.name, channel.difference)
         })
-        .collect();
-    let titles = [
-        "token",
-        "recording",
-        "score",
-        "stretch",
-        "onset",
-        "first",
-        "rest",
-        "offset",
-        "differs most in",
-    ];
-    output.write_titled_table(&titles, &rows)?;
+    };
+    output.write_item_table(
+        &choice.ranking,
+        &[
+            ("token", &|ranked| ranked.token.clone()),
+            ("recording", &|ranked| ranked.recording.clone()),
+            ("score", &|ranked| format!("{:.3}", ranked.score)),
+            ("stretch", &|ranked| format!("{:.2}", ranked.parts.stretch)),
+            ("onset", &|ranked| part(ranked, 0)),
+            ("first", &|ranked| part(ranked, 1)),
+            ("rest", &|ranked| part(ranked, 2)),
+            ("offset", &|ranked| part(ranked, 3)),
+            ("differs most in", &most_different),
+        ],
+    )?;
     if !choice.left_out.is_empty() {
         output.filled_line("left out, as they are unknown: {names}", &[&choice.left_out.join(", ")])?;
     }

@@ -96,21 +96,16 @@ pub(super) fn run(cli: &CommandLine, args: &ConsentArgs, output: &mut CommandOut
 
 fn print_consent_rows(rows: &[ConsentRow], output: &mut CommandOutput) -> Result<()> {
     let word = |audience: Option<ConsentAudience>| audience.map_or("", ConsentAudience::audience_name).to_owned();
-    let rows: Vec<Vec<String>> = rows
-        .iter()
-        .map(|row| {
-            let it = &row.consent;
-            vec![
-                format!("{}:{}", row.of, row.id),
-                row.name.clone(),
-                word(it.movement),
-                word(it.annotation),
-                word(it.derived),
-                it.day.clone().unwrap_or_default(),
-                it.form.clone().unwrap_or_default(),
-            ]
-        })
-        .collect();
-    let titles = ["of", "name", "movement", "annotation", "derived", "day", "form"];
-    output.write_titled_table(&titles, &rows)
+    output.write_item_table(
+        rows,
+        &[
+            ("of", &|row| format!("{}:{}", row.of, row.id)),
+            ("name", &|row| row.name.clone()),
+            ("movement", &|row| word(row.consent.movement)),
+            ("annotation", &|row| word(row.consent.annotation)),
+            ("derived", &|row| word(row.consent.derived)),
+            ("day", &|row| row.consent.day.clone().unwrap_or_default()),
+            ("form", &|row| row.consent.form.clone().unwrap_or_default()),
+        ],
+    )
 }

@@ -89,9 +89,7 @@ pub(super) fn run(cli: &CommandLine, args: &CueArgs, output: &mut CommandOutput)
     };
     let mut done = corpus.generate_cued_speech(&text, &options, args.gloss.as_deref())?;
     if args.explain {
-        for finding in &findings {
-            output.write_warning(finding)?;
-        }
+        output.write_warnings(&findings)?;
     }
     done.report.warnings.append(&mut findings);
     super::recombine_command::print_recombination(&done, args.explain, args.draw.as_deref(), output)

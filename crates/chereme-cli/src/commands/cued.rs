@@ -5,8 +5,9 @@ use std::path::PathBuf;
 use anyhow::Result;
 use chereme_corpus::recipe::PhaseRule;
 use chereme_corpus::{
-    CueConfusion, CueCosts, CueOptions, CuedOptions, DictionaryCueOptions, FromDictionary, ProgressReceiver,
-    RestoreOptions, RowName, SlipKind, read_marker_labels,
+    CorpusError, CueConfusion, CueCosts, CueOptions, CuePhaseStatistics, CueRecognition, CueSlips, CueTargets,
+    CuedMarkers, CuedOptions, DictionaryCueOptions, DictionaryReport, FoundKey, FromDictionary, RestoreOptions,
+    RestoredTake, RowName, ScriptCoverage, SlipKind, read_marker_labels,
 };
 use chereme_sign::cue::PhoneAlphabet;
 use clap::Subcommand;
@@ -14,7 +15,7 @@ use clap::Subcommand;
 use super::cue_command::PHASE_RULE_CHOICES;
 use super::track_command::parse_recording_address;
 use crate::args::CommandLine;
-use crate::output::{CommandOutput, CommandProgressBar};
+use crate::output::{CommandOutput, with_progress_bar};
 
 /// Work with captured cued speech: markers, restoration, recognition, targets, phases, dictionary, slips
 ///
@@ -161,32 +162,8 @@ pub(super) fn run(cli: &CommandLine, args: &CuedArgs, output: &mut CommandOutput
         variants: args.variants.clone(),
         labels: labels.unwrap_or_default(),
     };
-    let mut bar = CommandProgressBar::new();
-    let mut progress = ProgressReceiver::new(&mut bar);
     match &args.action {
-        CuedCommand::Markers { recording } => {
-            let marker_sets = corpus.cued_markers(recording, &options)?;
-            for (name, set) in [("hand", &marker_sets.hand), ("face", &marker_sets.face)] {
-                let visible = format!(
-                    "{name}: {} markers, {:.1} % of their positions visible",
-                    set.found,
-                    set.seen * 100.0
-                );
-                output.write_output_line(match set.missing.len() {
-                    0 => visible,
-                    1..=12 => format!("{visible}; missing: {}", set.missing.join(", ")),
-                    count => format!("{visible}; {count} are missing"),
-                })?;
-            }
-            if !marker_sets.unused.is_empty() {
-                output.filled_line("not used: {names}", &[&marker_sets.unused.join(", ")])?;
-            }
-            output.filled_line(
-                "{n} frames at {rate} a second; {hidden} hidden places restored",
-                &[&marker_sets.frames, &marker_sets.rate, &marker_sets.restored],
-            )?;
-            output.set_json_document(marker_sets)
-        }
+        CuedCommand::Markers { recording } => print_marker_sets(&corpus.cued_markers(recording, &options)?, output),
         CuedCommand::Restore {
             recordings,
             train,
@@ -199,187 +176,37 @@ pub(super) fn run(cli: &CommandLine, args: &CuedArgs, output: &mut CommandOutput
                 dry_run: *dry_run,
                 cued: options,
             };
-            let done = corpus.restore_markers(recordings, &how, &mut progress)?;
-            drop(bar);
-            let mm = |value: Option<f64>| value.map_or_else(String::new, |number| format!("{number:.2}"));
-            let rows: Vec<Vec<String>> = done
-                .iter()
-                .map(|row| {
-                    vec![
-                        row.recording.clone(),
-                        row.frames.to_string(),
-                        row.hidden.to_string(),
-                        row.restored.to_string(),
-                        row.uncertain.to_string(),
-                        mm(row.hand_mm),
-                        mm(row.hand_axis_mm),
-                        mm(row.face_mm),
-                    ]
-                })
-                .collect();
-            let titles = [
-                "recording",
-                "frames",
-                "hidden",
-                "restored",
-                "uncertain",
-                "hand_mm",
-                "hand_axis_mm",
-                "face_mm",
-            ];
-            output.write_titled_table(&titles, &rows)?;
-            // Findings are about the models, which are the same for all takes.
-            if let Some(first) = done.first() {
-                for finding in &first.findings {
-                    output.write_warning(finding)?;
-                }
-            }
-            if *dry_run {
-                output.write_output_line("nothing was stored")?;
-            }
-            output.set_json_document(done)
+            let done = with_progress_bar(|progress| corpus.restore_markers(recordings, &how, progress))?;
+            print_restored_takes(&done, *dry_run, output)
         }
         CuedCommand::Recognise { train, test } => {
-            let recognition = corpus.recognise_cues(train, test, &options)?;
-            output.write_output_line(format!(
-                "{} recognised after training on {}",
-                output.format_counted_noun(recognition.tested_on.len() as u64, "recordings"),
-                output.format_counted_noun(recognition.trained_on.len() as u64, "recordings"),
-            ))?;
-            if recognition.same {
-                output.write_output_line("warning: the recognisers were tested on the keys from which they learned")?;
-            }
-            for finding in &recognition.findings {
-                output.write_warning(finding)?;
-            }
-            print_cue_confusion("shapes", &recognition.shapes, output)?;
-            print_cue_confusion("placements", &recognition.placements, output)?;
-            output.set_json_document(recognition)
+            print_cue_recognition(&corpus.recognise_cues(train, test, &options)?, output)
         }
         CuedCommand::Targets { recordings, store } => {
             let take_targets = corpus.find_cue_targets(recordings, *store, &options)?;
-            let rows: Vec<Vec<String>> = take_targets
-                .iter()
-                .map(|take| {
-                    let hand = take.keys.iter().filter(|key| key.hand_us.is_some()).count();
-                    let fingers = take.keys.iter().filter(|key| key.fingers_us.is_some()).count();
-                    vec![
-                        take.recording.clone(),
-                        take.keys.len().to_string(),
-                        hand.to_string(),
-                        fingers.to_string(),
-                        take.tiers.join(", "),
-                    ]
-                })
-                .collect();
-            output.write_titled_table(&["recording", "keys", "hand", "fingers", "tiers"], &rows)?;
-            for finding in take_targets.iter().flat_map(|take| &take.findings) {
-                output.write_warning(finding)?;
-            }
-            if !store {
-                output.write_output_line("nothing was stored; --store writes tiers")?;
-            }
-            output.set_json_document(take_targets)
+            print_cue_targets(&take_targets, *store, output)
         }
         CuedCommand::Phases {
             recordings,
             draw,
             force,
         } => {
-            let phase_table = corpus.cue_phases(recordings, &options)?;
-            let range_text = |range: [f64; 3]| format!("{:+.0} ({:+.0} to {:+.0})", range[1], range[0], range[2]);
-            let rows: Vec<Vec<String>> = phase_table
-                .rows
-                .iter()
-                .map(|row| {
-                    vec![
-                        row.part.to_owned(),
-                        row.kind.to_owned(),
-                        row.n.to_string(),
-                        range_text(row.begins_ms),
-                        range_text(row.arrives_ms),
-                        format!("{:.2} ({:.2} to {:.2})", row.share[1], row.share[0], row.share[2]),
-                    ]
-                })
-                .collect();
-            let titles = [
-                "part",
-                "kind",
-                "n",
-                "begins ms: median (quartiles)",
-                "arrives ms",
-                "share",
-            ];
-            output.write_titled_table(&titles, &rows)?;
-            for finding in &phase_table.findings {
-                output.write_warning(finding)?;
-            }
+            let phase_statistics = corpus.cue_phases(recordings, &options)?;
+            print_cue_phases(&phase_statistics, output)?;
             if let Some(path) = draw {
-                phase_table.draw_cue_phases(path, *force)?;
+                phase_statistics.draw_cue_phases(path, *force)?;
                 output.filled_line("drew {path}", &[&path.display()])?;
             }
-            output.set_json_document(phase_table)
+            output.set_json_document(phase_statistics)
         }
         CuedCommand::Dictionary { recordings, script } => {
-            let text = script
-                .as_ref()
-                .map(|path| {
-                    std::fs::read_to_string(path)
-                        .map_err(|error| chereme_corpus::CorpusError::from_file_failure(path, error))
-                })
-                .transpose()?;
-            let cue_book = corpus.cue_dictionary(recordings, text.as_deref(), &options, &mut progress)?;
-            drop(bar);
-            output.filled_line(
-                "{n} movements from {recordings}: {found} of {all} pairs of keys; components miss \
-                 markers by {mm} mm",
-                &[
-                    &cue_book.dikeys,
-                    &output.format_counted_noun(cue_book.recordings.len() as u64, "recordings"),
-                    &cue_book.kinds,
-                    &cue_book.of,
-                    &format_args!("{:.2}", cue_book.missed_mm),
-                ],
-            )?;
-            for left in &cue_book.left_out {
-                let left = output.translate_message(left);
-                output.filled_line("left out: {what}", &[&left])?;
-            }
-            if let Some(script) = &cue_book.script {
-                output.filled_line(
-                    "the script: {n} sentences, {pairs} pairs, {share} % of them in the \
-                     dictionary; {missing} different ones are missing",
-                    &[
-                        &script.sentences,
-                        &script.pairs,
-                        &format_args!("{:.1}", script.covered * 100.0),
-                        &script.missing.len(),
-                    ],
-                )?;
-                let rows: Vec<Vec<String>> = script
-                    .worth
-                    .iter()
-                    .map(|sentence| {
-                        vec![
-                            sentence.line.to_string(),
-                            sentence.adds.to_string(),
-                            sentence.text.clone(),
-                        ]
-                    })
-                    .collect();
-                output.write_titled_table(&["line", "adds", "sentence"], &rows)?;
-            } else {
-                let rows: Vec<Vec<String>> = cue_book
-                    .pairs
-                    .iter()
-                    .map(|row| {
-                        let first = row.sources.first().cloned().unwrap_or_default();
-                        vec![row.pair.clone(), row.count.to_string(), first]
-                    })
-                    .collect();
-                output.write_titled_table(&["pair", "count", "first source"], &rows)?;
-            }
-            output.set_json_document(cue_book)
+            let read_script = |path: &PathBuf| {
+                std::fs::read_to_string(path).map_err(|error| CorpusError::from_file_failure(path, error))
+            };
+            let text = script.as_ref().map(read_script).transpose()?;
+            let cue_book =
+                with_progress_bar(|progress| corpus.cue_dictionary(recordings, text.as_deref(), &options, progress))?;
+            print_cue_dictionary(&cue_book, output)
         }
         CuedCommand::Say {
             text,
@@ -408,8 +235,8 @@ pub(super) fn run(cli: &CommandLine, args: &CuedArgs, output: &mut CommandOutput
                 },
                 recordings,
             };
-            let composed = corpus.cue_from_dictionary(text, &request, gloss.as_deref(), &mut progress)?;
-            drop(bar);
+            let composed =
+                with_progress_bar(|progress| corpus.cue_from_dictionary(text, &request, gloss.as_deref(), progress))?;
             print_comparison(&composed, output)?;
             output.set_json_document(composed)
         }
@@ -417,47 +244,199 @@ pub(super) fn run(cli: &CommandLine, args: &CuedArgs, output: &mut CommandOutput
             recording,
             text,
             recognised,
-        } => {
-            let slips = corpus.cue_slips(recording, text.as_deref(), *recognised, &options)?;
-            output.filled_line(
-                "{n} keys predicted by {code}, {produced} produced ({rate}); {same} as predicted",
-                &[
-                    &slips.predicted,
-                    &output.translate_message(slips.predicted_by),
-                    &slips.produced,
-                    &output.translate_message(slips.produced_by),
-                    &slips.right,
-                ],
-            )?;
-            for kind in [
-                SlipKind::Insertion,
-                SlipKind::Deletion,
-                SlipKind::Placement,
-                SlipKind::Shape,
-                SlipKind::Both,
-            ] {
-                let count = slips.count_slips_of(kind);
-                if count > 0 {
-                    output.write_output_line(format!("{}: {count}", kind.slip_kind_name()))?;
-                }
-            }
-            let rows: Vec<Vec<String>> = slips
-                .slips
-                .iter()
-                .map(|slip| {
-                    let seconds = slip.at_us.map(|at| format!("{:.2}", at as f64 / 1e6));
-                    vec![
-                        seconds.unwrap_or_default(),
-                        slip.kind.slip_kind_name().to_owned(),
-                        slip.predicted.clone().unwrap_or_default(),
-                        slip.produced.clone().unwrap_or_default(),
-                    ]
-                })
-                .collect();
-            output.write_titled_table(&["seconds", "slip", "predicted", "produced"], &rows)?;
-            output.set_json_document(slips)
+        } => print_cue_slips(
+            &corpus.cue_slips(recording, text.as_deref(), *recognised, &options)?,
+            output,
+        ),
+    }
+}
+
+fn print_marker_sets(markers: &CuedMarkers, output: &mut CommandOutput) -> Result<()> {
+    for (name, set) in [("hand", &markers.hand), ("face", &markers.face)] {
+        let visible = format!(
+            "{name}: {} markers, {:.1} % of their positions visible",
+            set.found,
+            set.seen * 100.0
+        );
+        output.write_output_line(match set.missing.len() {
+            0 => visible,
+            // The names of more would fill several lines, and mean that the labels are not the program's.
+            1..=12 => format!("{visible}; missing: {}", set.missing.join(", ")),
+            count => format!("{visible}; {count} are missing"),
+        })?;
+    }
+    if !markers.unused.is_empty() {
+        output.filled_line("not used: {names}", &[&markers.unused.join(", ")])?;
+    }
+    output.filled_line(
+        "{n} frames at {rate} a second; {hidden} hidden places restored",
+        &[&markers.frames, &markers.rate, &markers.restored],
+    )?;
+    output.set_json_document(markers)
+}
+
+fn print_restored_takes(takes: &[RestoredTake], dry_run: bool, output: &mut CommandOutput) -> Result<()> {
+    let mm = |value: Option<f64>| value.map_or_else(String::new, |number| format!("{number:.2}"));
+    output.write_item_table(
+        takes,
+        &[
+            ("recording", &|take| take.recording.clone()),
+            ("frames", &|take| take.frames.to_string()),
+            ("hidden", &|take| take.hidden.to_string()),
+            ("restored", &|take| take.restored.to_string()),
+            ("uncertain", &|take| take.uncertain.to_string()),
+            ("hand_mm", &|take| mm(take.hand_mm)),
+            ("hand_axis_mm", &|take| mm(take.hand_axis_mm)),
+            ("face_mm", &|take| mm(take.face_mm)),
+        ],
+    )?;
+    // Findings are about the models, which are the same for all takes.
+    output.write_warnings(takes.first().iter().flat_map(|take| &take.findings))?;
+    if dry_run {
+        output.write_output_line("nothing was stored")?;
+    }
+    output.set_json_document(takes)
+}
+
+fn print_cue_recognition(recognition: &CueRecognition, output: &mut CommandOutput) -> Result<()> {
+    output.write_output_line(format!(
+        "{} recognised after training on {}",
+        output.format_counted_noun(recognition.tested_on.len() as u64, "recordings"),
+        output.format_counted_noun(recognition.trained_on.len() as u64, "recordings"),
+    ))?;
+    if recognition.same {
+        output.write_output_line("warning: the recognisers were tested on the keys from which they learned")?;
+    }
+    output.write_warnings(&recognition.findings)?;
+    print_cue_confusion("shapes", &recognition.shapes, output)?;
+    print_cue_confusion("placements", &recognition.placements, output)?;
+    output.set_json_document(recognition)
+}
+
+fn print_cue_targets(takes: &[CueTargets], is_stored: bool, output: &mut CommandOutput) -> Result<()> {
+    let count = |take: &CueTargets, time: fn(&FoundKey) -> Option<[i64; 2]>| {
+        take.keys.iter().filter_map(time).count().to_string()
+    };
+    output.write_item_table(
+        takes,
+        &[
+            ("recording", &|take| take.recording.clone()),
+            ("keys", &|take| take.keys.len().to_string()),
+            ("hand", &|take| count(take, |key| key.hand_us)),
+            ("fingers", &|take| count(take, |key| key.fingers_us)),
+            ("tiers", &|take| take.tiers.join(", ")),
+        ],
+    )?;
+    output.write_warnings(takes.iter().flat_map(|take| &take.findings))?;
+    if !is_stored {
+        output.write_output_line("nothing was stored; --store writes tiers")?;
+    }
+    output.set_json_document(takes)
+}
+
+fn print_cue_phases(statistics: &CuePhaseStatistics, output: &mut CommandOutput) -> Result<()> {
+    // Quartiles lie around the median, which readers look for first.
+    let milliseconds = |[low, median, high]: [f64; 3]| format!("{median:+.0} ({low:+.0} to {high:+.0})");
+    let share = |[low, median, high]: [f64; 3]| format!("{median:.2} ({low:.2} to {high:.2})");
+    output.write_item_table(
+        &statistics.rows,
+        &[
+            ("part", &|row| row.part.to_owned()),
+            ("kind", &|row| row.kind.to_owned()),
+            ("n", &|row| row.n.to_string()),
+            ("begins ms: median (quartiles)", &|row| milliseconds(row.begins_ms)),
+            ("arrives ms", &|row| milliseconds(row.arrives_ms)),
+            ("share", &|row| share(row.share)),
+        ],
+    )?;
+    output.write_warnings(&statistics.findings)
+}
+
+fn print_cue_dictionary(cue_book: &DictionaryReport, output: &mut CommandOutput) -> Result<()> {
+    output.filled_line(
+        "{n} movements from {recordings}: {found} of {all} pairs of keys; components miss \
+         markers by {mm} mm",
+        &[
+            &cue_book.dikeys,
+            &output.format_counted_noun(cue_book.recordings.len() as u64, "recordings"),
+            &cue_book.kinds,
+            &cue_book.of,
+            &format_args!("{:.2}", cue_book.missed_mm),
+        ],
+    )?;
+    for left in &cue_book.left_out {
+        let left = output.translate_message(left);
+        output.filled_line("left out: {what}", &[&left])?;
+    }
+    match &cue_book.script {
+        Some(script) => print_script_coverage(script, output)?,
+        None => output.write_item_table(
+            &cue_book.pairs,
+            &[
+                ("pair", &|row| row.pair.clone()),
+                ("count", &|row| row.count.to_string()),
+                ("first source", &|row| row.sources.first().cloned().unwrap_or_default()),
+            ],
+        )?,
+    }
+    output.set_json_document(cue_book)
+}
+
+fn print_script_coverage(script: &ScriptCoverage, output: &mut CommandOutput) -> Result<()> {
+    output.filled_line(
+        "the script: {n} sentences, {pairs} pairs, {share} % of them in the \
+         dictionary; {missing} different ones are missing",
+        &[
+            &script.sentences,
+            &script.pairs,
+            &format_args!("{:.1}", script.covered * 100.0),
+            &script.missing.len(),
+        ],
+    )?;
+    output.write_item_table(
+        &script.worth,
+        &[
+            ("line", &|sentence| sentence.line.to_string()),
+            ("adds", &|sentence| sentence.adds.to_string()),
+            ("sentence", &|sentence| sentence.text.clone()),
+        ],
+    )
+}
+
+fn print_cue_slips(slips: &CueSlips, output: &mut CommandOutput) -> Result<()> {
+    output.filled_line(
+        "{n} keys predicted by {code}, {produced} produced ({rate}); {same} as predicted",
+        &[
+            &slips.predicted,
+            &output.translate_message(slips.predicted_by),
+            &slips.produced,
+            &output.translate_message(slips.produced_by),
+            &slips.right,
+        ],
+    )?;
+    for kind in [
+        SlipKind::Insertion,
+        SlipKind::Deletion,
+        SlipKind::Placement,
+        SlipKind::Shape,
+        SlipKind::Both,
+    ] {
+        let count = slips.count_slips_of(kind);
+        if count > 0 {
+            output.write_output_line(format!("{}: {count}", kind.slip_kind_name()))?;
         }
     }
+    let seconds = |micros: i64| format!("{:.2}", micros as f64 / 1e6);
+    output.write_item_table(
+        &slips.slips,
+        &[
+            ("seconds", &|slip| slip.at_us.map_or_else(String::new, seconds)),
+            ("slip", &|slip| slip.kind.slip_kind_name().to_owned()),
+            ("predicted", &|slip| slip.predicted.clone().unwrap_or_default()),
+            ("produced", &|slip| slip.produced.clone().unwrap_or_default()),
+        ],
+    )?;
+    output.set_json_document(slips)
 }
 
 fn print_cue_confusion(name: &str, of: &CueConfusion, output: &mut CommandOutput) -> Result<()> {
@@ -482,31 +461,18 @@ fn print_cue_confusion(name: &str, of: &CueConfusion, output: &mut CommandOutput
 }
 
 fn print_comparison(composed: &FromDictionary, output: &mut CommandOutput) -> Result<()> {
-    let rows: Vec<Vec<String>> = composed
-        .pieces
-        .iter()
-        .map(|row| {
-            vec![
-                format!("{:.2}", row.at_us as f64 / 1e6),
-                row.wanted.clone(),
-                row.instead.clone().unwrap_or_default(),
-                row.source.clone(),
-                format!("{:.2}", row.duration_cost),
-                format!("{:.2}", row.join_cost),
-                row.read.clone().unwrap_or_default(),
-            ]
-        })
-        .collect();
-    let titles = [
-        "seconds",
-        "wanted",
-        "instead",
-        "source",
-        "duration",
-        "join",
-        "read back",
-    ];
-    output.write_titled_table(&titles, &rows)?;
+    output.write_item_table(
+        &composed.pieces,
+        &[
+            ("seconds", &|piece| format!("{:.2}", piece.at_us as f64 / 1e6)),
+            ("wanted", &|piece| piece.wanted.clone()),
+            ("instead", &|piece| piece.instead.clone().unwrap_or_default()),
+            ("source", &|piece| piece.source.clone()),
+            ("duration", &|piece| format!("{:.2}", piece.duration_cost)),
+            ("join", &|piece| format!("{:.2}", piece.join_cost)),
+            ("read back", &|piece| piece.read.clone().unwrap_or_default()),
+        ],
+    )?;
     output.filled_line(
         "{n} keys in {seconds} s: {exact} exact, {others} stand in for others, \
          {synthetic} synthetic; cost {cost}",
@@ -528,9 +494,7 @@ fn print_comparison(composed: &FromDictionary, output: &mut CommandOutput) -> Re
             ],
         )?;
     }
-    for finding in &composed.findings {
-        output.write_warning(finding)?;
-    }
+    output.write_warnings(&composed.findings)?;
     match &composed.recording {
         Some(name) => output.filled_line("stored as {name}", &[&name]),
         None => output.write_output_line("nothing was stored; --as GLOSS stores it"),

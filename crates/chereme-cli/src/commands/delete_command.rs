@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use chereme_corpus::words::deletion as words;
-use chereme_corpus::{CorpusAddress, DeleteOptions, DeletionReport, DependentsPolicy, ProgressReceiver};
+use chereme_corpus::{CorpusAddress, DeleteOptions, DeletionReport, DependentsPolicy};
 
 use crate::args::CommandLine;
-use crate::output::{CommandOutput, CommandProgressBar};
+use crate::output::{CommandOutput, with_progress_bar};
 
 /// Delete recordings and signs with everything that belongs to them
 ///
@@ -52,9 +52,7 @@ pub(super) fn run(cli: &CommandLine, args: &DeleteArgs, output: &mut CommandOutp
         },
         dry_run: args.dry_run,
     };
-    let mut bar = CommandProgressBar::new();
-    let done = corpus.delete_objects(&args.what, options, &mut ProgressReceiver::new(&mut bar))?;
-    drop(bar);
+    let done = with_progress_bar(|progress| corpus.delete_objects(&args.what, options, progress))?;
     print_deleted(&done, options.dependents, output)?;
     output.set_json_document(done)
 }

@@ -4,13 +4,12 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use chereme_corpus::{
-    Corpus, ExportOptions, ExportWhat, ImportOptions, PictureOptions, ProgressReceiver, SearchOptions, starter_files,
-    unpack_starter,
+    Corpus, ExportOptions, ExportWhat, ImportOptions, PictureOptions, SearchOptions, starter_files, unpack_starter,
 };
 use serde_json::{Value, json};
 
 use crate::args::CommandLine;
-use crate::output::{CommandOutput, CommandProgressBar};
+use crate::output::{CommandOutput, with_progress_bar};
 
 /// Show the program's main work on the starter corpus: build, search, recombine, store, draw, export
 ///
@@ -115,13 +114,7 @@ impl DemoRun {
             ],
         )?;
         let mut corpus = Corpus::create_corpus(&self.path, &cli.history_author())?;
-        let mut bar = CommandProgressBar::new();
-        let report = corpus.import_paths(
-            &[files],
-            &ImportOptions::default(),
-            &mut ProgressReceiver::new(&mut bar),
-        )?;
-        drop(bar);
+        let report = with_progress_bar(|progress| corpus.import_paths(&[files], &ImportOptions::default(), progress))?;
         let made: Vec<String> = report
             .created
             .iter()
@@ -195,21 +188,17 @@ impl DemoRun {
             "BOL-À-GAUCHE.png",
             "FONCÉ.png",
         ];
-        let mut bar = CommandProgressBar::new();
         let mut drawn = Vec::new();
         for name in names {
             let to = self.folder.join(name);
             let gloss = to.file_stem().map(|stem| stem.to_string_lossy().into_owned());
             let address = gloss.unwrap_or_default().parse()?;
             let options = PictureOptions::default();
-            drawn.push(self.demo_corpus()?.draw_movement_file(
-                &address,
-                &to,
-                &options,
-                &mut ProgressReceiver::new(&mut bar),
-            )?);
+            let corpus = self.demo_corpus()?;
+            drawn.push(with_progress_bar(|progress| {
+                corpus.draw_movement_file(&address, &to, &options, progress)
+            })?);
         }
-        drop(bar);
         output.filled_line(
             "4. Pictures in {path}: {names}",
             &[&self.folder.display(), &names.join(", ")],
@@ -219,7 +208,6 @@ impl DemoRun {
     }
 
     fn export_demo_corpus(&mut self, output: &mut CommandOutput) -> Result<()> {
-        let mut bar = CommandProgressBar::new();
         let mut written = Vec::new();
         let limace = ExportWhat::Address("LIMACE".parse()?);
         for (what, name) in [
@@ -228,13 +216,11 @@ impl DemoRun {
             (ExportWhat::All, "enriched"),
         ] {
             let to = self.folder.join(name);
-            let progress = &mut ProgressReceiver::new(&mut bar);
-            written.push(
-                self.demo_corpus()?
-                    .export_corpus(&what, &to, &ExportOptions::default(), progress)?,
-            );
+            let (corpus, options) = (self.demo_corpus()?, ExportOptions::default());
+            written.push(with_progress_bar(|progress| {
+                corpus.export_corpus(&what, &to, &options, progress)
+            })?);
         }
-        drop(bar);
         output.write_output_line("5. Written out: LIMACE.bvh, tokens.csv, and everything in the folder enriched")?;
         self.steps.push(json!({ "step": "export", "written": written }));
         Ok(())

@@ -3,13 +3,11 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::{
-    ALL_DETECTORS, AnnotationDetector, Corpus, CutOptions, DetectOptions, DetectionUse, ProgressReceiver,
-};
+use chereme_corpus::{ALL_DETECTORS, AnnotationDetector, Corpus, CutOptions, DetectOptions, DetectionUse};
 use clap::builder::PossibleValue;
 
 use crate::args::CommandLine;
-use crate::output::{CommandOutput, CommandProgressBar};
+use crate::output::{CommandOutput, with_progress_bar};
 
 /// Cut takes into signs, or run another detector on recordings
 ///
@@ -103,9 +101,7 @@ pub(super) fn run_and_report_detection(
     options: &DetectOptions,
     output: &mut CommandOutput,
 ) -> Result<()> {
-    let mut bar = CommandProgressBar::new();
-    let detected = corpus.run_detection(options, &mut ProgressReceiver::new(&mut bar))?;
-    drop(bar);
+    let detected = with_progress_bar(|progress| corpus.run_detection(options, progress))?;
     if options.use_as == DetectionUse::Shown {
         let seconds = |micros: i64| format!("{:.3}", micros as f64 / 1e6);
         let mut rows = Vec::new();

@@ -4,10 +4,10 @@ use std::io;
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::{Corpus, CorpusError, ExportOptions, ExportWhat, ProgressReceiver, SearchOptions};
+use chereme_corpus::{Corpus, CorpusError, ExportOptions, ExportWhat, SearchOptions};
 
 use crate::args::CommandLine;
-use crate::output::{CommandOutput, CommandProgressBar, write_to_stderr};
+use crate::output::{CommandOutput, with_progress_bar, write_to_stderr};
 use crate::streams;
 
 /// Export movement, annotations, tables, or the whole enriched database
@@ -77,8 +77,6 @@ pub(super) fn run(cli: &CommandLine, args: &ExportArgs, output: &mut CommandOutp
         audience: args.audience.parse()?,
         with_history: args.with_history,
     };
-    let mut bar = CommandProgressBar::new();
-    let progress = &mut ProgressReceiver::new(&mut bar);
     if streams::is_standard(&args.to) {
         streams::not_with_json(output.is_json())?;
         if args.format.is_none() {
@@ -90,17 +88,15 @@ pub(super) fn run(cli: &CommandLine, args: &ExportArgs, output: &mut CommandOutp
             );
         }
         let mut out = streams::StdoutDocument::new();
-        let notes = corpus.export_stream(&what, options, &mut out, progress)?;
+        let notes = with_progress_bar(|progress| corpus.export_stream(&what, options, &mut out, progress))?;
         io::Write::flush(&mut out)?;
-        drop(bar);
         for note in notes {
             write_to_stderr(&format!("note: {}", output.translate_message(&note)));
         }
         output.silence_output();
         return Ok(());
     }
-    let report = corpus.export_corpus(&what, &args.to, &options, progress)?;
-    drop(bar);
+    let report = with_progress_bar(|progress| corpus.export_corpus(&what, &args.to, &options, progress))?;
     match report.files.as_slice() {
         [one] => output.filled_line(
             "wrote {path}, {size} KB",

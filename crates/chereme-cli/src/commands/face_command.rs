@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::{Corpus, CorpusAddress, FaceFinding, FaceSystem, ProgressReceiver};
+use chereme_corpus::{Corpus, CorpusAddress, FaceFinding, FaceSystem};
 use serde_json::json;
 
 use crate::args::CommandLine;
-use crate::output::{CommandOutput, CommandProgressBar};
+use crate::output::{CommandOutput, with_progress_bar};
 
 /// Show a captured face in the program's own numbers, or list the supported face systems
 ///
@@ -65,19 +65,15 @@ pub(super) fn run(cli: &CommandLine, args: &FaceArgs, output: &mut CommandOutput
         ],
     )?;
     let number = |value: Option<f64>| value.map_or("unknown".to_owned(), |decimal| format!("{decimal:.3}"));
-    let rows: Vec<Vec<String>> = face
-        .numbers
-        .iter()
-        .map(|entry| {
-            vec![
-                entry.name.clone(),
-                number(entry.least),
-                number(entry.mean),
-                number(entry.most),
-            ]
-        })
-        .collect();
-    output.write_titled_table(&["number", "least", "mean", "most"], &rows)?;
+    output.write_item_table(
+        &face.numbers,
+        &[
+            ("number", &|entry| entry.name.clone()),
+            ("least", &|entry| number(entry.least)),
+            ("mean", &|entry| number(entry.mean)),
+            ("most", &|entry| number(entry.most)),
+        ],
+    )?;
     if let Some(on) = &face.fitted_on {
         output.filled_line("the weights were fitted on {on}", &[&on])?;
     }
@@ -94,9 +90,7 @@ fn print_face_proposals(
     store: bool,
     output: &mut CommandOutput,
 ) -> Result<()> {
-    let mut bar = CommandProgressBar::new();
-    let proposals = corpus.propose_nonmanuals(address, store, &mut ProgressReceiver::new(&mut bar))?;
-    drop(bar);
+    let proposals = with_progress_bar(|progress| corpus.propose_nonmanuals(address, store, progress))?;
     let seconds = |micros: i64| format!("{:.3}", micros as f64 / 1e6);
     let rows: Vec<Vec<String>> = proposals
         .proposals
@@ -137,17 +131,16 @@ fn fit_recorded_face(
         true => "-".to_owned(),
         false => format!("{value:.2}"),
     };
-    let rows: Vec<Vec<String>> = fit
-        .numbers
-        .iter()
-        .map(|entry| {
-            let rest = format!("{:.3}", entry.rest);
-            let (up, down) = (factor(entry.up), factor(entry.down));
-            vec![entry.name.clone(), rest, up, down, entry.formula.clone()]
-        })
-        .collect();
-    let titles = ["number", "rest", "times above", "times below", "weights"];
-    output.write_titled_table(&titles, &rows)?;
+    output.write_item_table(
+        &fit.numbers,
+        &[
+            ("number", &|entry| entry.name.clone()),
+            ("rest", &|entry| format!("{:.3}", entry.rest)),
+            ("times above", &|entry| factor(entry.up)),
+            ("times below", &|entry| factor(entry.down)),
+            ("weights", &|entry| entry.formula.clone()),
+        ],
+    )?;
     print_face_findings(&fit.findings, output)?;
     if fit.stored {
         output.filled_line(
@@ -170,23 +163,18 @@ fn print_face_findings(all: &[FaceFinding], output: &mut CommandOutput) -> Resul
 
 fn systems(named: Option<&str>, output: &mut CommandOutput) -> Result<()> {
     let Some(id) = named else {
-        let rows: Vec<Vec<String>> = FaceSystem::all_face_systems()
-            .iter()
-            .map(|system| {
-                let numbers = if system.expressions {
-                    "by code".to_owned()
-                } else {
-                    system.house.len().to_string()
-                };
-                vec![
-                    system.id.clone(),
-                    system.name.clone(),
-                    system.channels.len().to_string(),
-                    numbers,
-                ]
-            })
-            .collect();
-        output.write_titled_table(&["system", "name", "channels", "numbers of a face"], &rows)?;
+        output.write_item_table(
+            FaceSystem::all_face_systems(),
+            &[
+                ("system", &|system| system.id.clone()),
+                ("name", &|system| system.name.clone()),
+                ("channels", &|system| system.channels.len().to_string()),
+                ("numbers of a face", &|system| match system.expressions {
+                    true => "by code".to_owned(),
+                    false => system.house.len().to_string(),
+                }),
+            ],
+        )?;
         return output.set_json_document(json!({ "systems": FaceSystem::all_face_systems() }));
     };
     let Some(system) = FaceSystem::find_face_system(id) else {

@@ -50,20 +50,16 @@ pub(super) fn run(cli: &CommandLine, args: &FitArgs, output: &mut CommandOutput)
         dry_run: args.dry_run,
     };
     let report = corpus.fit_markers(&args.recording, &options)?;
-    let rows: Vec<Vec<String>> = report
-        .residuals
-        .iter()
-        .map(|entry| {
-            vec![
-                entry.marker.clone(),
-                entry.joint.clone(),
-                format!("{:.1}", entry.median_mm),
-                format!("{:.1}", entry.most_mm),
-                format!("{:.0} %", entry.seen * 100.0),
-            ]
-        })
-        .collect();
-    output.write_titled_table(&["marker", "joint", "median_mm", "most_mm", "seen"], &rows)?;
+    output.write_item_table(
+        &report.residuals,
+        &[
+            ("marker", &|entry| entry.marker.clone()),
+            ("joint", &|entry| entry.joint.clone()),
+            ("median_mm", &|entry| format!("{:.1}", entry.median_mm)),
+            ("most_mm", &|entry| format!("{:.1}", entry.most_mm)),
+            ("seen", &|entry| format!("{:.0} %", entry.seen * 100.0)),
+        ],
+    )?;
     output.filled_line(
         "{n} frames; the skeleton scaled by {scale}; median distance of the markers {mm} mm",
         &[
@@ -75,9 +71,7 @@ pub(super) fn run(cli: &CommandLine, args: &FitArgs, output: &mut CommandOutput)
     if !report.unused.is_empty() {
         output.filled_line("not used: {names}", &[&report.unused.join(", ")])?;
     }
-    for finding in &report.findings {
-        output.write_warning(finding)?;
-    }
+    output.write_warnings(&report.findings)?;
     match &report.track {
         Some(track) => output.filled_line("stored as the track {name}", &[&format_args!("{:?}", track)])?,
         None => output.write_output_line("nothing was stored")?,

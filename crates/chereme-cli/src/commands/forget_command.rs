@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use chereme_corpus::remedy::ErrorRemedy;
-use chereme_corpus::{CorpusAddress, CorpusError, ForgottenSigner, ProgressReceiver};
+use chereme_corpus::{CorpusAddress, CorpusError, ForgottenSigner};
 
 use crate::args::CommandLine;
-use crate::output::{CommandOutput, CommandProgressBar};
+use crate::output::{CommandOutput, with_progress_bar};
 
 /// The most texts that are shown one by one of those that rows of others hold, too.
 const MAX_SHOWN_ROWS: usize = 5;
@@ -52,9 +52,7 @@ pub(super) fn run(cli: &CommandLine, args: &ForgetArgs, output: &mut CommandOutp
             .into());
     };
     let mut corpus = cli.open_cli_corpus(&args.corpus)?;
-    let mut bar = CommandProgressBar::new();
-    let done = corpus.forget_signer(signer, !args.yes, &mut ProgressReceiver::new(&mut bar))?;
-    drop(bar);
+    let done = with_progress_bar(|progress| corpus.forget_signer(signer, !args.yes, progress))?;
     print_forgotten(&done, output)?;
     output.set_json_document(done)
 }

@@ -8,13 +8,13 @@ use anyhow::Result;
 use chereme_corpus::words::{InterfaceLanguage, fill_text_braces, trouble_words};
 use chereme_corpus::{
     Corpus, CorpusError, FileJoining, FileReport, FileStatus, GLOSSES_FROM_NAMES, ImportOptions, ImportReport,
-    JoinedRecording, OwnEdits, ProgressReceiver, RecordOrigin, ReportFinding, TierMapping,
+    JoinedRecording, OwnEdits, RecordOrigin, ReportFinding, TierMapping,
 };
 use chereme_motion::BodySide;
 use chereme_motion::anatomy::RolesError;
 
 use crate::args::{BODY_SIDE_CHOICES, CommandLine, NamedChoices, read_named_text, wrong_text};
-use crate::output::{CommandOutput, CommandProgressBar};
+use crate::output::{CommandOutput, with_progress_bar};
 use crate::streams::{self, StandInFile};
 
 /// Import recordings, annotations, lexicons and inventories into a corpus
@@ -204,9 +204,7 @@ pub(super) fn run(cli: &CommandLine, args: &ImportArgs, output: &mut CommandOutp
     } else {
         cli.open_cli_corpus(path)?
     };
-    let mut bar = CommandProgressBar::new();
-    let report = corpus.import_paths(&files, &options, &mut ProgressReceiver::new(&mut bar));
-    drop(bar);
+    let report = with_progress_bar(|progress| corpus.import_paths(&files, &options, progress));
     // Everything was refused and nothing is in it.
     let empty = |report: &ImportReport| report.has_refusals() && report.created.values().all(|count| *count == 0);
     // A corpus of a dry run lies in a temporary folder.

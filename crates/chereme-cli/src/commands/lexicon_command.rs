@@ -3,14 +3,12 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::{
-    Corpus, CorpusError, LexiconChange, LexiconContents, LexiconScope, LinkedRecordings, ProgressReceiver, RowName,
-};
+use chereme_corpus::{Corpus, CorpusError, LexiconChange, LexiconContents, LexiconScope, LinkedRecordings, RowName};
 use clap::{Args, Subcommand};
 
 use super::track_command::parse_recording_address;
 use crate::args::CommandLine;
-use crate::output::{CommandOutput, CommandProgressBar};
+use crate::output::{CommandOutput, with_progress_bar};
 
 /// List the lexicons of a corpus, say what they are, and link recordings to them
 ///
@@ -99,15 +97,19 @@ struct LexiconRecordingArgs {
 }
 
 impl LexiconRecordingArgs {
-    fn linked_recordings(&self, corpus: &mut Corpus, progress: &mut ProgressReceiver<'_>) -> Result<LinkedRecordings> {
-        Ok(match &self.query {
+    /// Links the recordings to a lexicon, or to none, and prints how many were linked otherwise before.
+    fn link_recordings(&self, corpus: &mut Corpus, lexicon: Option<&str>, output: &mut CommandOutput) -> Result<()> {
+        let linked = match &self.query {
             Some(query) => {
-                let ids = corpus.recordings_of_query(query, progress)?;
+                let ids = with_progress_bar(|progress| corpus.recordings_of_query(query, progress))?;
                 LinkedRecordings::Named(ids.into_iter().map(RowName::Number).collect())
             }
             None if self.all => LinkedRecordings::All,
             None => LinkedRecordings::Named(self.recordings.clone()),
-        })
+        };
+        let names = with_progress_bar(|progress| corpus.link_lexicon(lexicon, &linked, progress))?;
+        let count = output.format_counted_noun(names.len() as u64, "recordings");
+        output.filled_line("linked otherwise than before: {n}", &[&count])
     }
 }
 
@@ -134,8 +136,6 @@ impl LexiconScopeArgs {
 
 pub(super) fn run(cli: &CommandLine, args: &LexiconArgs, output: &mut CommandOutput) -> Result<()> {
     let mut corpus = cli.open_cli_corpus(&args.corpus)?;
-    let mut bar = CommandProgressBar::new();
-    let progress = &mut ProgressReceiver::new(&mut bar);
     match &args.action {
         None => {}
         Some(LexiconAction::Set(set)) => {
@@ -148,21 +148,15 @@ pub(super) fn run(cli: &CommandLine, args: &LexiconArgs, output: &mut CommandOut
             corpus.change_lexicon(&set.lexicon, &change)?;
         }
         Some(LexiconAction::Link(link)) => {
-            let recordings = link.recordings.linked_recordings(&mut corpus, progress)?;
-            let names = corpus.link_lexicon(Some(&link.lexicon), &recordings, progress)?;
-            print_linked_recordings(&names, output)?;
+            link.recordings
+                .link_recordings(&mut corpus, Some(&link.lexicon), output)?;
         }
         Some(LexiconAction::Remove { lexicon }) => {
             let removed = corpus.remove_lexicon(lexicon)?;
             output.filled_line("lexicon removed: {name}", &[&removed.name])?;
         }
-        Some(LexiconAction::Unlink(recordings)) => {
-            let recordings = recordings.linked_recordings(&mut corpus, progress)?;
-            let names = corpus.link_lexicon(None, &recordings, progress)?;
-            print_linked_recordings(&names, output)?;
-        }
+        Some(LexiconAction::Unlink(recordings)) => recordings.link_recordings(&mut corpus, None, output)?,
     }
-    drop(bar);
     let lexicons = corpus.list_lexicons()?;
     print_lexicons(&lexicons, output)?;
     output.set_json_document(lexicons)
@@ -185,11 +179,6 @@ impl LexiconSetArgs {
     }
 }
 
-fn print_linked_recordings(names: &[String], output: &mut CommandOutput) -> Result<()> {
-    let count = output.format_counted_noun(names.len() as u64, "recordings");
-    output.filled_line("linked otherwise than before: {n}", &[&count])
-}
-
 /// Returns the names of the first files, and how many more there are.
 fn shown_file_names(files: &[String]) -> String {
     const MAX_SHOWN_FILES: usize = 3;
@@ -205,31 +194,17 @@ fn print_lexicons(lexicons: &[LexiconContents], output: &mut CommandOutput) -> R
     if lexicons.is_empty() {
         return output.write_note("the corpus has no lexicon: import a table or notation with --lexicon NAME");
     }
-    let rows: Vec<Vec<String>> = lexicons
-        .iter()
-        .map(|contents| {
-            let lexicon = &contents.lexicon;
-            vec![
-                lexicon.name.clone(),
-                lexicon.language.clone().unwrap_or_default(),
-                lexicon.version.clone().unwrap_or_default(),
-                contents.signs.to_string(),
-                contents.tokens.to_string(),
-                contents.recordings.to_string(),
-                lexicon.terms.clone().unwrap_or_default(),
-                shown_file_names(&contents.files),
-            ]
-        })
-        .collect();
-    let titles = [
-        "name",
-        "language",
-        "version",
-        "signs",
-        "tokens",
-        "recordings",
-        "terms",
-        "files",
-    ];
-    output.write_titled_table(&titles, &rows)
+    output.write_item_table(
+        lexicons,
+        &[
+            ("name", &|row| row.lexicon.name.clone()),
+            ("language", &|row| row.lexicon.language.clone().unwrap_or_default()),
+            ("version", &|row| row.lexicon.version.clone().unwrap_or_default()),
+            ("signs", &|row| row.signs.to_string()),
+            ("tokens", &|row| row.tokens.to_string()),
+            ("recordings", &|row| row.recordings.to_string()),
+            ("terms", &|row| row.lexicon.terms.clone().unwrap_or_default()),
+            ("files", &|row| shown_file_names(&row.files)),
+        ],
+    )
 }

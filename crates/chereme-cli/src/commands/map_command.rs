@@ -4,13 +4,13 @@ use std::collections::HashMap;
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::{MapOptions, ProgressReceiver};
+use chereme_corpus::MapOptions;
 use chereme_sign::SignComponent;
 use serde_json::json;
 
 use super::lexicon_command::LexiconScopeArgs;
 use crate::args::CommandLine;
-use crate::output::{CommandOutput, CommandProgressBar};
+use crate::output::{CommandOutput, with_progress_bar};
 use crate::streams;
 
 /// Place the signs on a map: similar signs lie near each other
@@ -45,9 +45,7 @@ pub(super) fn run(cli: &CommandLine, args: &MapArgs, output: &mut CommandOutput)
         query: (!args.query.is_empty()).then(|| args.query.join(" ")),
         scope: args.scope.lexicon_scope(),
     };
-    let mut bar = CommandProgressBar::new();
-    let map = corpus.arrange_sign_map(&options, &mut ProgressReceiver::new(&mut bar))?;
-    drop(bar);
+    let map = with_progress_bar(|progress| corpus.arrange_sign_map(&options, progress))?;
     if let Some(to) = &args.to {
         if streams::is_standard(to) {
             streams::not_with_json(output.is_json())?;
@@ -64,21 +62,20 @@ pub(super) fn run(cli: &CommandLine, args: &MapArgs, output: &mut CommandOutput)
     } else {
         let gloss_pairs = map.signs.iter().map(|sign| (sign.token, sign.gloss.as_str()));
         let glosses: HashMap<i64, &str> = gloss_pairs.collect();
-        let rows: Vec<Vec<String>> = map
-            .signs
-            .iter()
-            .map(|sign| {
-                let near: Vec<&str> = sign.near.iter().filter_map(|id| glosses.get(id).copied()).collect();
-                vec![
-                    sign.token.to_string(),
-                    sign.gloss.clone(),
-                    format!("{:.3}", sign.x),
-                    format!("{:.3}", sign.y),
-                    near.join(", "),
-                ]
-            })
-            .collect();
-        output.write_titled_table(&["token", "gloss", "x", "y", "most alike"], &rows)?;
+        let near = |ids: &[i64]| {
+            let near_glosses = ids.iter().filter_map(|id| glosses.get(id).copied());
+            near_glosses.collect::<Vec<_>>().join(", ")
+        };
+        output.write_item_table(
+            &map.signs,
+            &[
+                ("token", &|sign| sign.token.to_string()),
+                ("gloss", &|sign| sign.gloss.clone()),
+                ("x", &|sign| format!("{:.3}", sign.x)),
+                ("y", &|sign| format!("{:.3}", sign.y)),
+                ("most alike", &|sign| near(&sign.near)),
+            ],
+        )?;
     }
     if map.left_out > 0 {
         output.filled_line(

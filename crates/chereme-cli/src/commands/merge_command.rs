@@ -6,13 +6,13 @@ use std::path::{Path, PathBuf};
 use anyhow::Result;
 use chereme_corpus::words::merge_words as words;
 use chereme_corpus::{
-    ConflictDecision, CorpusConflict, CorpusError, ImportOptions, MergeReport, OwnEdits, ProgressReceiver, merge_files,
+    ConflictDecision, CorpusConflict, CorpusError, ImportOptions, MergeReport, OwnEdits, merge_files,
 };
 use serde_json::json;
 
 use super::diff;
 use crate::args::{CommandLine, NamedChoices};
-use crate::output::{CommandOutput, CommandProgressBar};
+use crate::output::{CommandOutput, with_progress_bar};
 use crate::streams;
 
 /// Merge a copy that somebody else changed into your corpus or annotation file
@@ -108,10 +108,7 @@ fn is_corpus(path: &Path) -> bool {
 
 fn corpora(cli: &CommandLine, args: &MergeArgs, output: &mut CommandOutput) -> Result<()> {
     let mut corpus = cli.open_cli_corpus(&args.mine)?;
-    let mut bar = CommandProgressBar::new();
-    let progress = &mut ProgressReceiver::new(&mut bar);
-    let report = corpus.merge_corpus(&args.other, args.base.as_deref(), progress)?;
-    drop(bar);
+    let report = with_progress_bar(|progress| corpus.merge_corpus(&args.other, args.base.as_deref(), progress))?;
     print_merge_report(&report, output)?;
     output.set_json_document(report)
 }
@@ -200,10 +197,8 @@ fn file_into_corpus(cli: &CommandLine, args: &MergeArgs, output: &mut CommandOut
         own_edits: OwnEdits::Merge,
         ..ImportOptions::default()
     };
-    let mut bar = CommandProgressBar::new();
-    let progress = &mut ProgressReceiver::new(&mut bar);
-    let report = corpus.import_paths(std::slice::from_ref(&args.other), &options, progress)?;
-    drop(bar);
+    let report =
+        with_progress_bar(|progress| corpus.import_paths(std::slice::from_ref(&args.other), &options, progress))?;
     for file in &report.files {
         for finding in &file.findings {
             let message = output.translate_message(&finding.message);

@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::{ExpressionFunction, MilestoneOptions, ProgressReceiver};
+use chereme_corpus::{ExpressionFunction, MilestoneOptions};
 
 use crate::args::CommandLine;
-use crate::output::{CommandOutput, CommandProgressBar};
+use crate::output::{CommandOutput, with_progress_bar};
 
 /// Derive the milestones of expressions of the face from glosses and functions, and write them as tiers
 ///
@@ -54,46 +54,9 @@ pub(super) fn run(cli: &CommandLine, args: &MilestonesArgs, output: &mut Command
         recording: args.recording.as_deref().map(str::parse).transpose()?,
         dry_run: args.dry_run,
     };
-    let mut bar = CommandProgressBar::new();
-    let milestone_table = corpus.derive_face_milestones(&options, &mut ProgressReceiver::new(&mut bar))?;
-    drop(bar);
+    let milestone_table = with_progress_bar(|progress| corpus.derive_face_milestones(&options, progress))?;
     let seconds = |at: chereme_corpus::RecordingInstant| format!("{:.3}", at.instant_seconds());
-    let rows: Vec<Vec<String>> = milestone_table
-        .expressions
-        .iter()
-        .map(|entry| {
-            let marks = &entry.milestones;
-            vec![
-                entry.recording.clone(),
-                entry.address.clone(),
-                entry.function.to_string(),
-                entry.signs.join(" "),
-                seconds(marks.m1),
-                seconds(marks.m2),
-                marks.m3.map_or("-".to_owned(), seconds),
-                seconds(marks.m4),
-                seconds(marks.m5),
-                if entry.corrected {
-                    "corrected".to_owned()
-                } else {
-                    entry.findings.join("; ")
-                },
-            ]
-        })
-        .collect();
-    let titles = [
-        "recording",
-        "address",
-        "function",
-        "signs",
-        "M1",
-        "M2",
-        "M3",
-        "M4",
-        "M5",
-        "findings",
-    ];
-    if rows.is_empty() {
+    if milestone_table.expressions.is_empty() {
         let known_functions: Vec<String> = milestone_table
             .functions
             .iter()
@@ -106,7 +69,24 @@ pub(super) fn run(cli: &CommandLine, args: &MilestonesArgs, output: &mut Command
             false => format!("no such expression; the functions are: {}", known_functions.join(", ")),
         })?;
     } else {
-        output.write_titled_table(&titles, &rows)?;
+        output.write_item_table(
+            &milestone_table.expressions,
+            &[
+                ("recording", &|entry| entry.recording.clone()),
+                ("address", &|entry| entry.address.clone()),
+                ("function", &|entry| entry.function.to_string()),
+                ("signs", &|entry| entry.signs.join(" ")),
+                ("M1", &|entry| seconds(entry.milestones.m1)),
+                ("M2", &|entry| seconds(entry.milestones.m2)),
+                ("M3", &|entry| entry.milestones.m3.map_or("-".to_owned(), seconds)),
+                ("M4", &|entry| seconds(entry.milestones.m4)),
+                ("M5", &|entry| seconds(entry.milestones.m5)),
+                ("findings", &|entry| match entry.corrected {
+                    true => "corrected".to_owned(),
+                    false => entry.findings.join("; "),
+                }),
+            ],
+        )?;
         output.filled_line(
             "phases written: {n}; expressions that keep corrected milestones: {kept}",
             &[&milestone_table.written, &milestone_table.kept],

@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::{ExpressionFunction, NumberQuartiles, ProgressReceiver};
+use chereme_corpus::{ExpressionFunction, NumberQuartiles};
 
 use crate::args::CommandLine;
-use crate::output::{CommandOutput, CommandProgressBar};
+use crate::output::{CommandOutput, with_progress_bar};
 
 /// Measure when non-manuals begin and end relative to the signs that they span, for each function
 ///
@@ -39,40 +39,27 @@ pub(crate) struct OnsetsArgs {
 
 pub(super) fn run(cli: &CommandLine, args: &OnsetsArgs, output: &mut CommandOutput) -> Result<()> {
     let corpus = cli.open_cli_corpus(&args.corpus)?;
-    let mut bar = CommandProgressBar::new();
     let function = args.function.as_deref().map(ExpressionFunction::from_function_name);
-    let onset_table = corpus.measure_nonmanual_onsets(function.as_ref(), &mut ProgressReceiver::new(&mut bar))?;
-    drop(bar);
+    let onset_table = with_progress_bar(|progress| corpus.measure_nonmanual_onsets(function.as_ref(), progress))?;
     let text = |quartiles: &NumberQuartiles| {
         format!(
             "{:+.3} ({:+.3} to {:+.3})",
             quartiles.median, quartiles.q1, quartiles.q3
         )
     };
-    let rows: Vec<Vec<String>> = onset_table
-        .rows
-        .iter()
-        .map(|row| {
-            let (onset, offset) = (text(&row.onset_s), row.offset_s.as_ref().map(text).unwrap_or_default());
-            vec![
-                row.function.to_string(),
-                row.channel.to_owned(),
-                row.n.to_string(),
-                onset,
-                row.ends.to_string(),
-                offset,
-            ]
-        })
-        .collect();
-    let titles = [
-        "function",
-        "channel",
-        "n",
-        "begins: median (quartiles)",
-        "n of ends",
-        "ends: median (quartiles)",
-    ];
-    output.write_titled_table(&titles, &rows)?;
+    output.write_item_table(
+        &onset_table.rows,
+        &[
+            ("function", &|row| row.function.to_string()),
+            ("channel", &|row| row.channel.to_owned()),
+            ("n", &|row| row.n.to_string()),
+            ("begins: median (quartiles)", &|row| text(&row.onset_s)),
+            ("n of ends", &|row| row.ends.to_string()),
+            ("ends: median (quartiles)", &|row| {
+                row.offset_s.as_ref().map(text).unwrap_or_default()
+            }),
+        ],
+    )?;
     output.filled_line(
         "expressions: {n}; without a face: {none}",
         &[&onset_table.expressions, &onset_table.without_face],

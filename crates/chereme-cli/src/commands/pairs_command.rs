@@ -3,12 +3,12 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::{EmptyCellTreatment, PairOptions, ProgressReceiver};
+use chereme_corpus::{EmptyCellTreatment, PairOptions};
 use serde_json::json;
 
 use super::lexicon_command::LexiconScopeArgs;
 use crate::args::{CommandLine, NamedChoices};
-use crate::output::{CommandOutput, CommandProgressBar};
+use crate::output::{CommandOutput, with_progress_bar};
 
 /// Count the minimal pairs of a lexicon
 ///
@@ -56,9 +56,7 @@ pub(super) fn run(cli: &CommandLine, args: &PairsArgs, output: &mut CommandOutpu
         query: (!args.query.is_empty()).then(|| args.query.join(" ")),
         scope: args.scope.lexicon_scope(),
     };
-    let mut bar = CommandProgressBar::new();
-    let pair_report = corpus.minimal_pairs(&options, &mut ProgressReceiver::new(&mut bar))?;
-    drop(bar);
+    let pair_report = with_progress_bar(|progress| corpus.minimal_pairs(&options, progress))?;
     output.filled_line(
         "{n} pairs of {signs} signs ({all} compared by {fields}), {certain} of them certain: both \
          values are given",
@@ -89,9 +87,14 @@ pub(super) fn run(cli: &CommandLine, args: &PairsArgs, output: &mut CommandOutpu
     output.filled_line("in most pairs: {list}", &[&dense.join(", ")])?;
     let mut document = serde_json::to_value(&pair_report)?;
     if args.list {
-        let row = |pair: &chereme_corpus::MinimalPair| vec![pair.a.clone(), pair.b.clone(), pair.field.clone()];
-        let rows: Vec<Vec<String>> = pair_report.list.iter().map(row).collect();
-        output.write_titled_table(&["sign", "partner", "differs in"], &rows)?;
+        output.write_item_table(
+            &pair_report.list,
+            &[
+                ("sign", &|pair| pair.a.clone()),
+                ("partner", &|pair| pair.b.clone()),
+                ("differs in", &|pair| pair.field.clone()),
+            ],
+        )?;
         document["pairs"] = json!(pair_report.list);
     }
     output.set_json_document(document)

@@ -4,13 +4,12 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use chereme_corpus::{
-    AcceptanceResult, CorpusAddress, DetectOptions, ProgressReceiver, ProposalChoice, ProposalResult, ProposeOptions,
-    ProposeScope,
+    AcceptanceResult, CorpusAddress, DetectOptions, ProposalChoice, ProposalResult, ProposeOptions, ProposeScope,
 };
 use chereme_sign::SignComponent;
 
 use crate::args::CommandLine;
-use crate::output::{CommandOutput, CommandProgressBar};
+use crate::output::{CommandOutput, with_progress_bar};
 
 /// Propose values of a component from movement, for tokens without a value of it; or run a detector on recordings
 ///
@@ -62,8 +61,6 @@ pub(crate) struct ProposeArgs {
 
 pub(super) fn run(cli: &CommandLine, args: &ProposeArgs, output: &mut CommandOutput) -> Result<()> {
     let mut corpus = cli.open_cli_corpus(&args.corpus)?;
-    let mut bar = CommandProgressBar::new();
-    let mut progress = ProgressReceiver::new(&mut bar);
     let scope = match &args.only {
         None => ProposeScope::All,
         Some(only) => corpus.propose_scope(&only.parse::<CorpusAddress>()?)?,
@@ -82,14 +79,13 @@ pub(super) fn run(cli: &CommandLine, args: &ProposeArgs, output: &mut CommandOut
                 components: args.component.into_iter().collect(),
                 least_confidence: args.confidence,
             };
-            corpus.accept_chosen_proposals(&choice, &mut progress)?
+            with_progress_bar(|progress| corpus.accept_chosen_proposals(&choice, progress))?
         } else {
             AcceptanceResult {
-                report: corpus.accept_proposals(numbers, &mut progress)?,
+                report: with_progress_bar(|progress| corpus.accept_proposals(numbers, progress))?,
                 left: 0,
             }
         };
-        drop(bar);
         output.filled_line(
             "{n} accepted",
             &[&output.format_counted_noun(accepted.report.added, "annotations")],
@@ -113,8 +109,7 @@ pub(super) fn run(cli: &CommandLine, args: &ProposeArgs, output: &mut CommandOut
         },
         scope,
     };
-    let proposed = corpus.propose_components(&options, &mut progress)?;
-    drop(bar);
+    let proposed = with_progress_bar(|progress| corpus.propose_components(&options, progress))?;
     output.filled_line(
         "{annotations} in {recordings}, for {tokens}; {unread} could not be read from movement",
         &[
@@ -129,9 +124,7 @@ pub(super) fn run(cli: &CommandLine, args: &ProposeArgs, output: &mut CommandOut
         let counts: Vec<String> = counts.map(|(tenth, count)| format!("{tenth}: {count}")).collect();
         output.filled_line("by confidence, from: {counts}", &[&counts.join(", ")])?;
     }
-    for finding in &proposed.findings {
-        output.write_warning(finding)?;
-    }
+    output.write_warnings(&proposed.findings)?;
     if !proposed.uncut.is_empty() {
         output.write_note("`chereme detect CORPUS signs in RECORDING --propose` cuts takes into signs")?;
     }

@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::{LeftOutSigns, ProgressReceiver, PublishOptions};
+use chereme_corpus::{LeftOutSigns, PublishOptions};
 
 use super::lexicon_command::LexiconScopeArgs;
 use crate::args::CommandLine;
-use crate::output::{CommandOutput, CommandProgressBar};
+use crate::output::{CommandOutput, with_progress_bar};
 
 /// Publish a dictionary of signs: a folder of web pages that works without a server
 ///
@@ -80,9 +80,7 @@ pub(super) fn run(cli: &CommandLine, args: &PublishArgs, output: &mut CommandOut
         notes: args.notes,
         own_body: args.own_body,
     };
-    let mut bar = CommandProgressBar::new();
-    let done = corpus.publish_dictionary(&args.to, &options, &mut ProgressReceiver::new(&mut bar))?;
-    drop(bar);
+    let done = with_progress_bar(|progress| corpus.publish_dictionary(&args.to, &options, progress))?;
     output.filled_line(
         "published {signs}, {moving} of them with movement: {path}",
         &[

@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use anyhow::Result;
 use chereme_corpus::recipe::Step;
 use chereme_corpus::words::{InterfaceLanguage, InterfaceText};
-use chereme_corpus::{CorpusAddress, PictureOptions, ProgressReceiver, RecombinationResult, draw_clip};
+use chereme_corpus::{CorpusAddress, PictureOptions, RecombinationResult, draw_clip};
 use serde_json::json;
 
 use crate::args::CommandLine;
-use crate::output::{CommandOutput, CommandProgressBar};
+use crate::output::{CommandOutput, with_progress_bar};
 use crate::streams;
 
 const RECIPE_SOURCES_HELP: &str = "\
@@ -132,13 +132,10 @@ pub(super) fn print_recombination(
             output.write_output_line(line)?;
         }
     } else {
-        for warning in &done.report.warnings {
-            output.write_warning(warning)?;
-        }
+        output.write_warnings(&done.report.warnings)?;
     }
     let mut document = serde_json::to_value(done)?;
     if let Some(path) = draw {
-        let mut bar = CommandProgressBar::new();
         let title = if done.gloss.is_empty() {
             &done.recipe
         } else {
@@ -148,9 +145,7 @@ pub(super) fn print_recombination(
             force: true,
             ..PictureOptions::default()
         };
-        let progress = &mut ProgressReceiver::new(&mut bar);
-        let picture = draw_clip(done.into(), title, path, &options, progress)?;
-        drop(bar);
+        let picture = with_progress_bar(|progress| draw_clip(done.into(), title, path, &options, progress))?;
         output.filled_line("drew {path}", &[&path.display()])?;
         document["picture"] = json!(picture);
     }

@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::{ANIMATION_SPEEDS, CorpusAddress, DrawnPicture, OutputAudience, PictureOptions, ProgressReceiver};
+use chereme_corpus::{ANIMATION_SPEEDS, CorpusAddress, DrawnPicture, OutputAudience, PictureOptions};
 use chereme_motion::BodySide;
 
 use crate::args::{BODY_SIDE_CHOICES, CommandLine};
-use crate::output::{CommandOutput, CommandProgressBar, write_to_stderr};
+use crate::output::{CommandOutput, with_progress_bar, write_to_stderr};
 use crate::streams;
 
 /// Draw movement as a contact sheet (.png), an animation (.gif) or a film (.mp4), handshapes (.png), or notation (.svg)
@@ -121,8 +121,7 @@ pub(super) fn run(cli: &CommandLine, args: &RenderArgs, output: &mut CommandOutp
         }
         None => {
             let addresses: Vec<CorpusAddress> = args.what.iter().map(|what| what.parse()).collect::<Result<_, _>>()?;
-            let mut bar = CommandProgressBar::new();
-            corpus.draw_together(&addresses, to, &options, &mut ProgressReceiver::new(&mut bar))?
+            with_progress_bar(|progress| corpus.draw_together(&addresses, to, &options, progress))?
         }
     };
     if let Some(stand) = &stand {

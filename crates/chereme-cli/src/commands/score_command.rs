@@ -57,12 +57,14 @@ pub(super) fn run(cli: &CommandLine, args: &ScoreArgs, output: &mut CommandOutpu
          its own scale)",
         &[&format_args!("{:.1}", score.distance), &normalized],
     )?;
-    let rows: Vec<Vec<String>> = score
-        .components
-        .iter()
-        .map(|(component, part)| vec![component.to_string(), format!("{part:.4}")])
-        .collect();
-    output.write_titled_table(&["component", "distance"], &rows)?;
+    let components: Vec<_> = score.components.iter().collect();
+    output.write_item_table(
+        &components,
+        &[
+            ("component", &|(component, _)| component.to_string()),
+            ("distance", &|(_, part)| format!("{part:.4}")),
+        ],
+    )?;
     if let Some(error) = score.max_joint_error_m {
         output.filled_line(
             "largest distance of a joint: {cm} cm",
@@ -73,9 +75,7 @@ pub(super) fn run(cli: &CommandLine, args: &ScoreArgs, output: &mut CommandOutpu
         "alignment: {n}",
         &[&output.format_counted_noun(score.alignment.len() as u64, "pairs of frames")],
     )?;
-    for finding in &scored.findings {
-        output.write_warning(finding)?;
-    }
+    output.write_warnings(&scored.findings)?;
     output.set_json_document(scored)
 }
 
@@ -103,25 +103,24 @@ fn print_face_score(
         }
     ))?;
     let number = |value: Option<f64>| value.map_or("-".to_owned(), |decimal| format!("{decimal:.4}"));
-    let rows: Vec<Vec<String>> = score
-        .phases
-        .iter()
-        .map(|entry| {
-            vec![
-                entry.phase.milestone_range_name().to_owned(),
-                entry.phase.expression_phase_name().to_owned(),
-                format!("{} / {}", entry.frames[0], entry.frames[1]),
-                number(entry.normalized),
-                entry.made.map_or(String::new(), |made| made.to_string()),
-            ]
-        })
-        .collect();
-    output.write_titled_table(&["milestones", "phase", "frames", "distance a frame", "path"], &rows)?;
-    let rows: Vec<Vec<String>> = score
-        .channels
-        .iter()
-        .map(|channel| vec![channel.name.to_owned(), format!("{:.4}", channel.difference)])
-        .collect();
-    output.write_titled_table(&["channel", "mean difference"], &rows)?;
+    output.write_item_table(
+        &score.phases,
+        &[
+            ("milestones", &|entry| entry.phase.milestone_range_name().to_owned()),
+            ("phase", &|entry| entry.phase.expression_phase_name().to_owned()),
+            ("frames", &|entry| format!("{} / {}", entry.frames[0], entry.frames[1])),
+            ("distance a frame", &|entry| number(entry.normalized)),
+            ("path", &|entry| {
+                entry.made.map_or(String::new(), |made| made.to_string())
+            }),
+        ],
+    )?;
+    output.write_item_table(
+        &score.channels,
+        &[
+            ("channel", &|channel| channel.name.to_owned()),
+            ("mean difference", &|channel| format!("{:.4}", channel.difference)),
+        ],
+    )?;
     output.set_json_document(score)
 }

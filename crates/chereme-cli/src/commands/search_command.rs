@@ -5,13 +5,13 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use chereme_corpus::{
-    Corpus, CorpusError, FACET_VALUES, HitOpinion, HitOrder, KeptSearch, ProgressReceiver, SearchHit, SearchOptions,
-    TallyRow, components_text,
+    Corpus, CorpusError, FACET_VALUES, HitOpinion, HitOrder, KeptSearch, SearchHit, SearchOptions, TallyRow,
+    components_text,
 };
 use clap::ValueEnum;
 
 use crate::args::CommandLine;
-use crate::output::{CommandOutput, CommandProgressBar};
+use crate::output::{CommandOutput, with_progress_bar};
 
 /// Find the tokens that answer a query
 ///
@@ -182,9 +182,7 @@ fn print_token_tally(
     fields: &[String],
     output: &mut CommandOutput,
 ) -> Result<()> {
-    let mut bar = CommandProgressBar::new();
-    let mut progress = ProgressReceiver::new(&mut bar);
-    let tally = corpus.tally_values(&args.query.join(" "), fields, &mut progress)?;
+    let tally = with_progress_bar(|progress| corpus.tally_values(&args.query.join(" "), fields, progress))?;
     let columns: Vec<&str> = match tally.columns.is_empty() {
         true => vec!["tokens"],
         false => tally.columns.iter().map(String::as_str).collect(),

@@ -6,14 +6,14 @@ use std::path::PathBuf;
 use anyhow::Result;
 use chereme_corpus::{
     BattisonConditions, Corpus, EmptyCellTreatment, FieldAssociation, FieldInDepth, FieldStatistics, FieldValue,
-    HandCondition, LexiconStatistics, MeasuredSign, NeighbourDefinition, ProgressReceiver, SignMeasureOptions,
-    StatsEstimate, StatsFinding, StatsOptions,
+    HandCondition, LexiconStatistics, MeasuredSign, NeighbourDefinition, SignMeasureOptions, StatsEstimate,
+    StatsFinding, StatsOptions,
 };
 
 use super::lexicon_command::LexiconScopeArgs;
 use super::pairs_command::EMPTY_CELL_CHOICES;
 use crate::args::{CommandLine, NamedChoices};
-use crate::output::{CommandOutput, CommandProgressBar};
+use crate::output::{CommandOutput, with_progress_bar};
 
 /// Describe a lexicon by numbers: entropy, functional load, association of fields, conditions on the hands
 ///
@@ -163,9 +163,7 @@ pub(super) fn run(cli: &CommandLine, args: &StatsArgs, output: &mut CommandOutpu
     if args.per == Some(MeasuredThing::Sign) {
         return measure_each_sign(&mut corpus, args, output);
     }
-    let mut bar = CommandProgressBar::new();
-    let lexicon_statistics = corpus.lexicon_statistics(&args.stats_options(), &mut ProgressReceiver::new(&mut bar))?;
-    drop(bar);
+    let lexicon_statistics = with_progress_bar(|progress| corpus.lexicon_statistics(&args.stats_options(), progress))?;
     if let Some(of) = &lexicon_statistics.of {
         in_depth(of, args.limit, output)?;
     }
@@ -198,9 +196,7 @@ fn measure_each_sign(corpus: &mut Corpus, args: &StatsArgs, output: &mut Command
         definition: args.neighbours,
         within: usize::from(args.within),
     };
-    let mut bar = CommandProgressBar::new();
-    let measures = corpus.measure_signs(&options, &mut ProgressReceiver::new(&mut bar))?;
-    drop(bar);
+    let measures = with_progress_bar(|progress| corpus.measure_signs(&options, progress))?;
     output.filled_line(
         "entries: {n}, measured: {m}; neighbours: mean {mean}, median {median}; signs without one: {k}",
         &[
@@ -215,33 +211,21 @@ fn measure_each_sign(corpus: &mut Corpus, args: &StatsArgs, output: &mut Command
     let mut by_density: Vec<&MeasuredSign> = measures.signs.iter().collect();
     by_density.sort_by_key(|sign| std::cmp::Reverse(sign.density));
     let share = |value: Option<f64>| value.map(|share| format!("{share:.4}")).unwrap_or_default();
-    let row = |sign: &&MeasuredSign| {
-        vec![
-            sign.gloss.clone(),
-            sign.density.to_string(),
-            sign.pairs.to_string(),
-            sign.homonyms.len().to_string(),
-            sign.family_size.map(|size| size.to_string()).unwrap_or_default(),
-            share(sign.probability),
-            share(sign.pair_probability),
-            sign.tokens.to_string(),
-            sign.signers.to_string(),
-        ]
-    };
-    let rows: Vec<Vec<String>> = by_density.iter().take(args.limit).map(row).collect();
-    output.write_titled_table(
+    output.write_item_table(
+        by_density.into_iter().take(args.limit),
         &[
-            "gloss",
-            "neighbours",
-            "minimal pairs",
-            "homonyms",
-            "family",
-            "probability",
-            "of pairs",
-            "tokens",
-            "signers",
+            ("gloss", &|sign| sign.gloss.clone()),
+            ("neighbours", &|sign| sign.density.to_string()),
+            ("minimal pairs", &|sign| sign.pairs.to_string()),
+            ("homonyms", &|sign| sign.homonyms.len().to_string()),
+            ("family", &|sign| {
+                sign.family_size.map(|size| size.to_string()).unwrap_or_default()
+            }),
+            ("probability", &|sign| share(sign.probability)),
+            ("of pairs", &|sign| share(sign.pair_probability)),
+            ("tokens", &|sign| sign.tokens.to_string()),
+            ("signers", &|sign| sign.signers.to_string()),
         ],
-        &rows,
     )?;
     if let Some(more) = hidden_row_count(measures.signs.len(), args.limit) {
         output.filled_line("signs that are not shown: {n}; --to and --json have all", &[&more])?;
@@ -326,24 +310,21 @@ fn in_depth(of: &FieldInDepth, limit: usize, output: &mut CommandOutput) -> Resu
         "functional load: {number}",
         &[&format_estimate_interval(&field_statistics.load, 6, output)],
     )?;
-    let row = |value: &FieldValue| {
-        let value_interval = value.interval;
-        let ends = value_interval.map(|interval| {
-            format!(
-                "{} … {}",
-                format_share_percent(interval.low),
-                format_share_percent(interval.high)
-            )
-        });
-        vec![
-            value.value.clone(),
-            value.count.to_string(),
-            format_share_percent(value.share),
-            ends.unwrap_or_default(),
-        ]
+    let ends = |value: &FieldValue| {
+        let ends = value
+            .interval
+            .map(|interval| [interval.low, interval.high].map(format_share_percent).join(" … "));
+        ends.unwrap_or_default()
     };
-    let rows: Vec<Vec<String>> = of.values.iter().take(limit).map(row).collect();
-    output.write_titled_table(&["value", "count", "share", "95 %"], &rows)?;
+    output.write_item_table(
+        of.values.iter().take(limit),
+        &[
+            ("value", &|value| value.value.clone()),
+            ("count", &|value| value.count.to_string()),
+            ("share", &|value| format_share_percent(value.share)),
+            ("95 %", &ends),
+        ],
+    )?;
     if let Some(more) = hidden_row_count(of.values.len(), limit) {
         output.filled_line("values that are not shown: {n}; --json has all", &[&more])?;
     }
@@ -351,24 +332,21 @@ fn in_depth(of: &FieldInDepth, limit: usize, output: &mut CommandOutput) -> Resu
         let why = output.translate_message(why);
         return output.filled_line("contrasts: - ({why})", &[&why]);
     }
+    // An empty cell would look like a missing one.
     let cell = |text: &String| match text.is_empty() {
         true => "∅".to_owned(),
         false => text.clone(),
     };
-    let contrasts = of.contrasts.iter().take(limit);
-    let rows: Vec<Vec<String>> = contrasts
-        .map(|pair| {
-            vec![
-                // An empty cell would look like a missing one.
-                cell(&pair.a),
-                cell(&pair.b),
-                pair.pairs.to_string(),
-                format!("{:.6}", pair.load),
-            ]
-        })
-        .collect();
     output.write_output_line("contrasts that distinguish signs, the largest load first; ∅ is the empty cell")?;
-    output.write_titled_table(&["value", "other value", "minimal pairs", "load"], &rows)?;
+    output.write_item_table(
+        of.contrasts.iter().take(limit),
+        &[
+            ("value", &|pair| cell(&pair.a)),
+            ("other value", &|pair| cell(&pair.b)),
+            ("minimal pairs", &|pair| pair.pairs.to_string()),
+            ("load", &|pair| format!("{:.6}", pair.load)),
+        ],
+    )?;
     if let Some(more) = hidden_row_count(of.contrasts.len(), limit) {
         output.filled_line("contrasts that are not shown: {n}; --json has all", &[&more])?;
     }
@@ -476,11 +454,14 @@ fn print_condition_exceptions(
     let count = condition.exceptions.len();
     if count > 0 {
         output.write_output_line(title)?;
-        let rows = condition.exceptions.iter().take(limit);
-        let row =
-            |entry: &chereme_corpus::TwoHands| vec![entry.gloss.clone(), entry.strong.clone(), entry.weak.clone()];
-        let rows: Vec<Vec<String>> = rows.map(row).collect();
-        output.write_titled_table(&["gloss", "strong hand", "weak hand"], &rows)?;
+        output.write_item_table(
+            condition.exceptions.iter().take(limit),
+            &[
+                ("gloss", &|entry| entry.gloss.clone()),
+                ("strong hand", &|entry| entry.strong.clone()),
+                ("weak hand", &|entry| entry.weak.clone()),
+            ],
+        )?;
         if let Some(more) = hidden_row_count(count, limit) {
             output.filled_line("exceptions that are not shown: {n}; --json has all", &[&more])?;
         }

@@ -40,26 +40,10 @@ pub(super) fn run(cli: &CommandLine, args: &SuggestArgs, output: &mut CommandOut
         suggestion.token,
         coding.join(" ")
     ))?;
-    let rows = |partners: &[MinimalPairPartner]| -> Vec<Vec<String>> {
-        let row = |partner: &MinimalPairPartner| {
-            let change = format!("{}: {} -> {}", partner.field, partner.from, partner.to);
-            let recipe = partner.recipe.clone().unwrap_or_default();
-            vec![
-                partner.gloss.clone(),
-                partner.origin.record_origin_name().to_owned(),
-                change,
-                partner.equal.to_string(),
-                recipe,
-            ]
-        };
-        partners.iter().map(row).collect()
-    };
-    const SUGGESTION_TITLES: [&str; 5] = ["partner", "origin", "differs in", "alike in", "recipe"];
-    let certain = rows(&suggestion.partners);
-    if certain.is_empty() {
+    if suggestion.partners.is_empty() {
         output.write_output_line("no sign differs from it in one component only")?;
     } else {
-        output.write_titled_table(&SUGGESTION_TITLES, &certain)?;
+        print_pair_partners(&suggestion.partners, output)?;
     }
     let shown = &suggestion.possible[..suggestion.possible.len().min(MOST_POSSIBLE)];
     if !shown.is_empty() {
@@ -67,7 +51,7 @@ pub(super) fn run(cli: &CommandLine, args: &SuggestArgs, output: &mut CommandOut
             "possible pairs, in which one sign is not coded for all fields ({n} of {all}):",
             &[&shown.len(), &suggestion.possible.len()],
         )?;
-        output.write_titled_table(&SUGGESTION_TITLES, &rows(shown))?;
+        print_pair_partners(shown, output)?;
     }
     for (field, values) in &suggestion.unused {
         output.filled_line(
@@ -76,4 +60,19 @@ pub(super) fn run(cli: &CommandLine, args: &SuggestArgs, output: &mut CommandOut
         )?;
     }
     output.set_json_document(suggestion)
+}
+
+fn print_pair_partners(partners: &[MinimalPairPartner], output: &mut CommandOutput) -> Result<()> {
+    output.write_item_table(
+        partners,
+        &[
+            ("partner", &|partner| partner.gloss.clone()),
+            ("origin", &|partner| partner.origin.record_origin_name().to_owned()),
+            ("differs in", &|partner| {
+                format!("{}: {} -> {}", partner.field, partner.from, partner.to)
+            }),
+            ("alike in", &|partner| partner.equal.to_string()),
+            ("recipe", &|partner| partner.recipe.clone().unwrap_or_default()),
+        ],
+    )
 }

@@ -3,16 +3,16 @@
 use anyhow::Result;
 use chereme_corpus::words::InterfaceLanguage;
 use chereme_corpus::{
-    AnnotatedHands, CopiedAnnotations, Corpus, CorpusAddress, CorpusError, NewTier, ProgressReceiver, RecordOrigin,
-    RecordingChange, RowName, SignChange, SignerChange, TierPropertyChange, TierRequestName, TierRoundOptions,
-    TierRoundScope, TierRoundWork, TierScheme, TierStereotype, TierTopic, TierValueSource,
+    AnnotatedHands, CopiedAnnotations, Corpus, CorpusAddress, CorpusError, NewTier, RecordOrigin, RecordingChange,
+    RowName, SignChange, SignerChange, TierPropertyChange, TierRequestName, TierRoundOptions, TierRoundScope,
+    TierRoundWork, TierScheme, TierStereotype, TierTopic, TierValueSource,
 };
 use chereme_motion::BodySide;
 use clap::{Subcommand, ValueEnum};
 
 use super::annotate;
 use crate::args::BODY_SIDE_CHOICES;
-use crate::output::{CommandOutput, CommandProgressBar};
+use crate::output::{CommandOutput, with_progress_bar};
 use crate::words::tier_roles_help;
 
 #[derive(Debug, Subcommand)]
@@ -232,9 +232,7 @@ pub(super) fn run_tier_round(
         dry_run: round.dry_run,
         skip: round.skip,
     };
-    let mut bar = CommandProgressBar::new();
-    let report = corpus.work_on_tiers(scope, work, options, &mut ProgressReceiver::new(&mut bar))?;
-    drop(bar);
+    let report = with_progress_bar(|progress| corpus.work_on_tiers(scope, work, options, progress))?;
     if report.dry_run {
         output.write_output_line("nothing is written; it would be:")?;
     }
@@ -316,123 +314,154 @@ fn parse_language_text(text: &str) -> Result<(String, String), String> {
     Ok((language.to_owned(), text.to_owned()))
 }
 
+impl TierCommand {
+    /// Returns the work on tiers that several recordings may have done at once, with the choice of recordings; `None`
+    /// for changes of something else.
+    fn work_on_tiers(&self) -> Result<Option<(TierRoundWork, &TierRoundArgs)>> {
+        Ok(Some(match self {
+            Self::AddTier {
+                name,
+                role,
+                hand,
+                parent,
+                stereotype,
+                inventory,
+                people,
+                round,
+            } => {
+                // Each recording puts its own number in this place.
+                let mut tier = NewTier::new(RowName::Number(0), name.clone(), role.role.clone());
+                // An empty option is the same as none for a new tier.
+                tier.hand = hand_of(Some(role), *hand)?.flatten();
+                tier.participant = non_blank_text(&people.participant);
+                tier.annotator = non_blank_text(&people.annotator);
+                tier.language = non_blank_text(&people.language);
+                tier.parent = parent.clone().zip(*stereotype);
+                if let Some(inventory) = inventory {
+                    tier.values = TierValueSource::Inventory(inventory.clone());
+                }
+                (TierRoundWork::Add(tier), round)
+            }
+            Self::AddTiers { like, round } => {
+                let other = like.as_deref().map(annotate::parse_annotated_recording).transpose()?;
+                let scheme = other.map_or(TierScheme::Usual, TierScheme::Like);
+                (TierRoundWork::AddScheme(scheme), round)
+            }
+            Self::Tier {
+                tier,
+                name,
+                role,
+                hand,
+                inventory,
+                people,
+                round,
+            } => {
+                let change = TierPropertyChange {
+                    name: name.clone(),
+                    role: role.as_ref().map(|topic| topic.role.clone()),
+                    hand: hand_of(role.as_ref(), *hand)?,
+                    values: inventory.clone().map(TierValueSource::Inventory),
+                    // An empty text is passed on here: it removes the old one.
+                    participant: people.participant.clone().map(Some),
+                    annotator: people.annotator.clone().map(Some),
+                    language: people.language.clone().map(Some),
+                    ..TierPropertyChange::default()
+                };
+                let tier = tier.clone();
+                (TierRoundWork::Change { tier, change }, round)
+            }
+            Self::CopyTier {
+                tier,
+                name,
+                blank,
+                bare,
+                holding,
+                round,
+            } => {
+                let copied = match (blank, bare, holding) {
+                    (_, _, Some(text)) => CopiedAnnotations::Holding(text.clone()),
+                    (true, ..) => CopiedAnnotations::Times,
+                    (_, true, _) => CopiedAnnotations::Nothing,
+                    _ => CopiedAnnotations::All,
+                };
+                let (tier, name) = (tier.clone(), name.clone());
+                (TierRoundWork::Copy { tier, name, copied }, round)
+            }
+            Self::RemoveTier { tier, round } => {
+                let tier = tier.clone();
+                (TierRoundWork::Remove { tier }, round)
+            }
+            _ => return Ok(None),
+        }))
+    }
+}
+
 pub(super) fn run(
     corpus: &mut Corpus,
     action: &TierCommand,
     recording: Option<&RowName>,
     output: &mut CommandOutput,
 ) -> Result<()> {
+    match action.work_on_tiers()? {
+        Some((work, round)) => match round.round_scope(recording)? {
+            Some(scope) => run_tier_round(corpus, &scope, &work, round, output),
+            None => work_in_recording(corpus, work, recording, output),
+        },
+        None => change_described_row(corpus, action, recording, output),
+    }
+}
+
+/// Does work on the tiers of one recording.
+fn work_in_recording(
+    corpus: &mut Corpus,
+    work: TierRoundWork,
+    recording: Option<&RowName>,
+    output: &mut CommandOutput,
+) -> Result<()> {
     let needed = || recording.cloned().ok_or_else(annotate::which_recording);
-    match action {
-        TierCommand::AddTier {
-            name,
-            role,
-            hand,
-            parent,
-            stereotype,
-            inventory,
-            people,
-            round,
-        } => {
-            let scope = round.round_scope(recording)?;
-            // Work on several recordings puts each in its place.
-            let place = scope.as_ref().map_or_else(needed, |_| Ok(RowName::Number(0)))?;
-            let mut tier = NewTier::new(place, name.clone(), role.role.clone());
-            // An empty option is the same as none for a new tier.
-            tier.hand = hand_of(Some(role), *hand)?.flatten();
-            tier.participant = non_blank_text(&people.participant);
-            tier.annotator = non_blank_text(&people.annotator);
-            tier.language = non_blank_text(&people.language);
-            tier.parent = parent.clone().zip(*stereotype);
-            if let Some(inventory) = inventory {
-                tier.values = TierValueSource::Inventory(inventory.clone());
-            }
-            if let Some(scope) = scope {
-                return run_tier_round(corpus, &scope, &TierRoundWork::Add(tier), round, output);
-            }
-            let row = corpus.add_tier(&tier)?;
+    match work {
+        TierRoundWork::Add(tier) => {
+            let recording = needed()?;
+            let row = corpus.add_tier(&NewTier { recording, ..tier })?;
             output.filled_line("added tier:{id}, {name}", &[&row.id, &format_args!("{:?}", row.name)])?;
             output.set_json_document(row)
         }
-        TierCommand::AddTiers { like, round } => {
-            let scheme = match like {
-                Some(other) => TierScheme::Like(annotate::parse_annotated_recording(other)?),
-                None => TierScheme::Usual,
-            };
-            if let Some(scope) = round.round_scope(recording)? {
-                return run_tier_round(corpus, &scope, &TierRoundWork::AddScheme(scheme), round, output);
-            }
+        TierRoundWork::AddScheme(scheme) => {
             let rows = corpus.add_tiers(&needed()?, &scheme)?;
             for row in &rows {
                 output.filled_line("added tier:{id}, {name}", &[&row.id, &format_args!("{:?}", row.name)])?;
             }
             output.set_json_document(rows)
         }
-        TierCommand::Tier {
-            tier,
-            name,
-            role,
-            hand,
-            inventory,
-            people,
-            round,
-        } => {
-            let change = TierPropertyChange {
-                name: name.clone(),
-                role: role.as_ref().map(|topic| topic.role.clone()),
-                hand: hand_of(role.as_ref(), *hand)?,
-                values: inventory.clone().map(TierValueSource::Inventory),
-                // An empty text is passed on here: it removes the old one.
-                participant: people.participant.clone().map(Some),
-                annotator: people.annotator.clone().map(Some),
-                language: people.language.clone().map(Some),
-                ..TierPropertyChange::default()
-            };
-            if let Some(scope) = round.round_scope(recording)? {
-                let tier = tier.clone();
-                return run_tier_round(corpus, &scope, &TierRoundWork::Change { tier, change }, round, output);
-            }
-            let row = corpus.change_tier_properties(&TierRequestName::parse_tier_name(tier, recording)?, &change)?;
+        TierRoundWork::Change { tier, change } => {
+            let row = corpus.change_tier_properties(&TierRequestName::parse_tier_name(&tier, recording)?, &change)?;
             output.filled_line("changed tier:{id}, {name}", &[&row.id, &format_args!("{:?}", row.name)])?;
             output.set_json_document(row)
         }
-        TierCommand::CopyTier {
-            tier,
-            name,
-            blank,
-            bare,
-            holding,
-            round,
-        } => {
-            let copied = match (blank, bare, holding) {
-                (_, _, Some(text)) => CopiedAnnotations::Holding(text.clone()),
-                (true, ..) => CopiedAnnotations::Times,
-                (_, true, _) => CopiedAnnotations::Nothing,
-                _ => CopiedAnnotations::All,
-            };
-            if let Some(scope) = round.round_scope(recording)? {
-                let work = TierRoundWork::Copy {
-                    tier: tier.clone(),
-                    name: name.clone(),
-                    copied,
-                };
-                return run_tier_round(corpus, &scope, &work, round, output);
-            }
-            let row = corpus.copy_tier(&TierRequestName::parse_tier_name(tier, recording)?, name, &copied)?;
+        TierRoundWork::Copy { tier, name, copied } => {
+            let row = corpus.copy_tier(&TierRequestName::parse_tier_name(&tier, recording)?, &name, &copied)?;
             output.filled_line("added tier:{id}, {name}", &[&row.id, &format_args!("{:?}", row.name)])?;
             output.set_json_document(row)
         }
-        TierCommand::RemoveTier { tier, round } => {
-            if let Some(scope) = round.round_scope(recording)? {
-                let tier = tier.clone();
-                return run_tier_round(corpus, &scope, &TierRoundWork::Remove { tier }, round, output);
-            }
-            let removed = corpus.remove_tier(&TierRequestName::parse_tier_name(tier, recording)?)?;
-            let (names, count) = (removed.tiers.join(", "), removed.annotations);
-            let count = output.format_counted_noun(count, "annotations");
-            output.filled_line("removed {names} with {n}", &[&names, &count])?;
+        TierRoundWork::Remove { tier } => {
+            let removed = corpus.remove_tier(&TierRequestName::parse_tier_name(&tier, recording)?)?;
+            let count = output.format_counted_noun(removed.annotations, "annotations");
+            output.filled_line("removed {names} with {n}", &[&removed.tiers.join(", "), &count])?;
             output.set_json_document(removed)
         }
+        // A command of its own moves tiers in time.
+        TierRoundWork::Shift { .. } => Ok(()),
+    }
+}
+
+/// Changes what describes tiers and recordings: recordings, signers, signs, the preferred annotator, citation forms.
+fn change_described_row(
+    corpus: &mut Corpus,
+    action: &TierCommand,
+    recording: Option<&RowName>,
+    output: &mut CommandOutput,
+) -> Result<()> {
+    match action {
         TierCommand::Recording {
             name,
             signer,
@@ -440,6 +469,7 @@ pub(super) fn run(
             licence,
             notes,
         } => {
+            let recording = recording.cloned().ok_or_else(annotate::which_recording)?;
             let change = RecordingChange {
                 name: name.clone(),
                 signer: signer.clone().map(Some),
@@ -450,7 +480,7 @@ pub(super) fn run(
                 licence: licence.clone().map(Some),
                 notes: notes.clone().map(Some),
             };
-            let row = corpus.change_recording(&needed()?, &change)?;
+            let row = corpus.change_recording(&recording, &change)?;
             output.filled_line(
                 "changed recording:{id}, {name}",
                 &[&row.id, &format_args!("{:?}", row.name)],
@@ -512,5 +542,11 @@ pub(super) fn run(
             output.filled_line("token:{id} is the citation form of {gloss}", &[&row.id, &row.gloss])?;
             output.set_json_document(row)
         }
+        // These are work on tiers.
+        TierCommand::AddTier { .. }
+        | TierCommand::AddTiers { .. }
+        | TierCommand::Tier { .. }
+        | TierCommand::CopyTier { .. }
+        | TierCommand::RemoveTier { .. } => Ok(()),
     }
 }

@@ -162,21 +162,19 @@ fn no_track(name: &str) -> CorpusError {
 
 fn print_track_rows(tracks: &[TrackRow], output: &mut CommandOutput) -> Result<()> {
     let seconds = |micros: Option<i64>| micros.map_or_else(String::new, |micros| format!("{:.3}", micros as f64 / 1e6));
-    let columns = ["name", "kind", "rate", "offset_s", "duration_s", "channels"];
-    let rows: Vec<Vec<String>> = tracks
-        .iter()
-        .map(|track| {
-            vec![
-                track.name.clone(),
-                track.kind.track_kind_name().to_owned(),
-                track.rate.map_or_else(String::new, |rate| rate.to_string()),
-                seconds(Some(track.offset_us)),
-                seconds(track.duration_us),
-                track.channels.to_string(),
-            ]
-        })
-        .collect();
-    output.write_titled_table(&columns, &rows)?;
+    output.write_item_table(
+        tracks,
+        &[
+            ("name", &|track| track.name.clone()),
+            ("kind", &|track| track.kind.track_kind_name().to_owned()),
+            ("rate", &|track| {
+                track.rate.map_or_else(String::new, |rate| rate.to_string())
+            }),
+            ("offset_s", &|track| seconds(Some(track.offset_us))),
+            ("duration_s", &|track| seconds(track.duration_us)),
+            ("channels", &|track| track.channels.to_string()),
+        ],
+    )?;
     let rows: Vec<_> = tracks
         .iter()
         .map(|track| {

@@ -3,10 +3,11 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::{CorpusAddress, ProgressReceiver, TranscribedFeature};
+use chereme_corpus::{CorpusAddress, TranscribedFeature};
+use chereme_motion::BodySide;
 
 use crate::args::CommandLine;
-use crate::output::{CommandOutput, CommandProgressBar};
+use crate::output::{CommandOutput, with_progress_bar};
 
 /// Transcribe a captured or generated sign in HamNoSys, with the residual of each feature
 ///
@@ -50,24 +51,16 @@ pub(crate) struct TranscribeArgs {
 pub(super) fn run(cli: &CommandLine, args: &TranscribeArgs, output: &mut CommandOutput) -> Result<()> {
     let mut corpus = cli.open_cli_corpus(&args.corpus)?;
     let address: CorpusAddress = args.token.parse()?;
-    let mut bar = CommandProgressBar::new();
-    let progress = &mut ProgressReceiver::new(&mut bar);
-    let written = if args.store {
-        corpus.store_transcription(&address, args.force, progress)?
-    } else {
-        corpus.transcribe_movement(&address, progress)?
-    };
-    drop(bar);
+    let written = with_progress_bar(|progress| match args.store {
+        true => corpus.store_transcription(&address, args.force, progress),
+        false => corpus.transcribe_movement(&address, progress),
+    })?;
     if args.names {
         output.line_as_is(&written.symbols.join(" "))?;
     } else {
         output.line_as_is(&format!("{}: {}", written.gloss, written.hamnosys))?;
         output.line_as_is(&written.symbols.join(" "))?;
-        let rows: Vec<Vec<String>> = written.features.iter().map(transcribed_feature_row).collect();
-        output.write_titled_table(
-            &["feature", "hand", "action", "seconds", "value", "residual", "runner-up"],
-            &rows,
-        )?;
+        print_transcribed_features(&written.features, output)?;
         let act_names = written.nonmanual.acts_by_tier().map(|(_, act)| act.act_curve_name());
         let acts: Vec<String> = act_names.collect();
         if !acts.is_empty() {
@@ -80,27 +73,30 @@ pub(super) fn run(cli: &CommandLine, args: &TranscribeArgs, output: &mut Command
     output.set_json_document(written)
 }
 
-fn micros_to_seconds(micros: i64) -> f64 {
-    micros as f64 / 1e6
-}
-
-fn transcribed_feature_row(feature: &TranscribedFeature) -> Vec<String> {
-    let residual = |residual: f64| format!("{residual:.1}{}", feature.unit.residual_unit_symbol());
-    vec![
-        feature.feature.feature_kind_name().to_owned(),
-        feature
-            .hand
-            .map_or_else(String::new, |hand| hand.body_side_name().to_owned()),
-        feature.action.map_or_else(String::new, |n| n.to_string()),
-        format!(
-            "{:.2}-{:.2}",
-            micros_to_seconds(feature.start_us),
-            micros_to_seconds(feature.end_us)
-        ),
-        feature.value.value.clone(),
-        residual(feature.value.residual),
-        feature.runner_up.as_ref().map_or_else(String::new, |next| {
-            format!("{}, {}", next.value, residual(next.residual))
-        }),
-    ]
+fn print_transcribed_features(features: &[TranscribedFeature], output: &mut CommandOutput) -> Result<()> {
+    let seconds = |micros: i64| micros as f64 / 1e6;
+    let with_residual =
+        |feature: &TranscribedFeature, residual: f64| format!("{residual:.1}{}", feature.unit.residual_unit_symbol());
+    let runner_up = |feature: &TranscribedFeature| match &feature.runner_up {
+        Some(next) => format!("{}, {}", next.value, with_residual(feature, next.residual)),
+        None => String::new(),
+    };
+    output.write_item_table(
+        features,
+        &[
+            ("feature", &|feature| feature.feature.feature_kind_name().to_owned()),
+            ("hand", &|feature| {
+                feature.hand.map_or("", BodySide::body_side_name).to_owned()
+            }),
+            ("action", &|feature| {
+                feature.action.map_or_else(String::new, |n| n.to_string())
+            }),
+            ("seconds", &|feature| {
+                format!("{:.2}-{:.2}", seconds(feature.start_us), seconds(feature.end_us))
+            }),
+            ("value", &|feature| feature.value.value.clone()),
+            ("residual", &|feature| with_residual(feature, feature.value.residual)),
+            ("runner-up", &runner_up),
+        ],
+    )
 }

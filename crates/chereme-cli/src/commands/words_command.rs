@@ -43,12 +43,15 @@ pub(super) fn run(_: &CommandLine, args: &WordsArgs, output: &mut CommandOutput)
     };
     let coverage = language_coverage(code, args.folder.as_deref())?;
     let LanguageCoverage { missing, faults, .. } = &coverage;
-    let rows: Vec<Vec<String>> = missing
-        .iter()
-        .map(|row| vec![row.id.clone(), row.english.clone(), row.place.clone()])
-        .collect();
-    if !rows.is_empty() {
-        output.write_titled_table(&["id", "English", "place"], &rows)?;
+    if !missing.is_empty() {
+        output.write_item_table(
+            missing,
+            &[
+                ("id", &|row| row.id.clone()),
+                ("English", &|row| row.english.clone()),
+                ("place", &|row| row.place.clone()),
+            ],
+        )?;
     }
     for row in faults {
         output.write_output_line(format!("{}: {}", row.place, row.fault))?;

@@ -66,37 +66,28 @@ pub(super) fn run(cli: &CommandLine, args: &StudyAnswersArgs, output: &mut Comma
     )?;
     list.keep_filtered_rows(&filter)?;
     let language = output.output_language();
-    let row = |answer: &AnswerListRow| {
-        let right = answer.right.map(|right| match right {
-            true => reporting::YES.text_in_language(language),
-            false => reporting::NO.text_in_language(language),
+    let right = |answer: &AnswerListRow| {
+        let word = answer.right.map(|right| match right {
+            true => reporting::YES,
+            false => reporting::NO,
         });
-        vec![
-            answer.participant.clone(),
-            answer.n.map_or_else(String::new, |number| number.to_string()),
-            answer.part.clone(),
-            answer.item.clone(),
-            answer.condition.clone(),
-            answer.question.clone(),
-            reporting::answer_text(answer, language),
-            right.unwrap_or_default().to_owned(),
-            answer.plays.to_string(),
-        ]
+        word.map_or_else(String::new, |word| word.text_in_language(language).to_owned())
     };
-    let rows: Vec<Vec<String>> = list.rows.iter().take(MAX_PRINTED_ANSWERS).map(row).collect();
-    output.write_titled_table(
+    output.write_item_table(
+        list.rows.iter().take(MAX_PRINTED_ANSWERS),
         &[
-            "participant",
-            "place",
-            "part",
-            "item",
-            "condition",
-            "question",
-            "answer",
-            "right",
-            "plays",
+            ("participant", &|answer| answer.participant.clone()),
+            ("place", &|answer| {
+                answer.n.map_or_else(String::new, |number| number.to_string())
+            }),
+            ("part", &|answer| answer.part.clone()),
+            ("item", &|answer| answer.item.clone()),
+            ("condition", &|answer| answer.condition.clone()),
+            ("question", &|answer| answer.question.clone()),
+            ("answer", &|answer| reporting::answer_text(answer, language)),
+            ("right", &right),
+            ("plays", &|answer| answer.plays.to_string()),
         ],
-        &rows,
     )?;
     if list.rows.len() > MAX_PRINTED_ANSWERS {
         let more = list.rows.len() - MAX_PRINTED_ANSWERS;

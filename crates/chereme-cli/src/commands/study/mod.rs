@@ -8,17 +8,18 @@ use std::process::ExitCode;
 
 use anyhow::Result;
 use chereme_corpus::study::study_plan::{
-    ConditionOrder, LocalizedTexts, QuestionKind, QuestionViewing, StudyPlan, StudyQuestion, TrialDesign, text_in,
+    ConditionOrder, LocalizedTexts, QuestionKind, QuestionViewing, StudyPlan, StudyQuestion, StudyTrial, TrialDesign,
+    text_in,
 };
 use chereme_corpus::study::{
     AnswersFile, AnswersOptions, ColumnUse, QuestionnaireOptions, StudyRequest, split_quoted_words,
 };
-use chereme_corpus::{Corpus, FileStatus, ProgressReceiver};
+use chereme_corpus::{Corpus, FileStatus};
 use clap::Subcommand;
 
 use super::import_command::print_finding;
 use crate::args::{CommandLine, NamedChoices, read_named_text};
-use crate::output::{CommandOutput, CommandProgressBar};
+use crate::output::{CommandOutput, with_progress_bar};
 
 /// Run a perceptual study: plan it, build its questionnaire, import the answers, report on them
 ///
@@ -220,10 +221,8 @@ pub(super) fn run(cli: &CommandLine, args: &StudyArgs, output: &mut CommandOutpu
 }
 
 fn run_study_action(cli: &CommandLine, action: &StudyCommand, output: &mut CommandOutput) -> Result<()> {
-    let mut bar = CommandProgressBar::new();
-    let mut progress = ProgressReceiver::new(&mut bar);
     match action {
-        StudyCommand::New(new) => plan_new_study(cli, new, &mut progress, output),
+        StudyCommand::New(new) => plan_new_study(cli, new, output),
         StudyCommand::Show { corpus, name } => {
             let study = cli.open_cli_corpus(corpus)?.study_with_answers(name)?;
             print_study_plan(&study.plan, output)?;
@@ -248,10 +247,8 @@ fn run_study_action(cli: &CommandLine, action: &StudyCommand, output: &mut Comma
                 rate: *rate,
                 force: *force,
             };
-            let done = cli
-                .open_cli_corpus(corpus)?
-                .build_study(name, to, options, &mut progress)?;
-            drop(bar);
+            let mut corpus = cli.open_cli_corpus(corpus)?;
+            let done = with_progress_bar(|progress| corpus.build_study(name, to, options, progress))?;
             output.filled_line(
                 "questionnaire {path}: {n} films, {orders} orders of trials, {size} KB",
                 &[
@@ -301,11 +298,8 @@ fn import_study_answers(
     options: &AnswersOptions,
     output: &mut CommandOutput,
 ) -> Result<ExitCode> {
-    let mut bar = CommandProgressBar::new();
-    let progress = &mut ProgressReceiver::new(&mut bar);
     let mut corpus = cli.open_cli_corpus(corpus)?;
-    let report = corpus.import_answers_by(name, files, options, progress)?;
-    drop(bar);
+    let report = with_progress_bar(|progress| corpus.import_answers_by(name, files, options, progress))?;
     for file in &report.files {
         print_column_uses(&file.columns, output)?;
         if file.findings.is_empty() && file.status != FileStatus::Refused {
@@ -347,21 +341,19 @@ fn print_column_uses(uses: &[ColumnUse], output: &mut CommandOutput) -> Result<(
     if uses.is_empty() {
         return Ok(());
     }
-    let row = |column: &ColumnUse| {
-        let cells = [column.column.clone(), column.means.clone(), column.cells.to_string()];
-        let tail = [column.example.clone(), column.stands_for.clone()];
-        cells.into_iter().chain(tail).collect()
-    };
-    let rows: Vec<Vec<String>> = uses.iter().map(row).collect();
-    output.write_titled_table(&["column", "means", "cells", "example", "stands for"], &rows)
+    output.write_item_table(
+        uses,
+        &[
+            ("column", &|used| used.column.clone()),
+            ("means", &|used| used.means.clone()),
+            ("cells", &|used| used.cells.to_string()),
+            ("example", &|used| used.example.clone()),
+            ("stands for", &|used| used.stands_for.clone()),
+        ],
+    )
 }
 
-fn plan_new_study(
-    cli: &CommandLine,
-    args: &NewArgs,
-    progress: &mut ProgressReceiver<'_>,
-    output: &mut CommandOutput,
-) -> Result<()> {
+fn plan_new_study(cli: &CommandLine, args: &NewArgs, output: &mut CommandOutput) -> Result<()> {
     let named =
         |path: &PathBuf| -> Result<(String, String)> { Ok((read_named_text(path)?, path.display().to_string())) };
     let mut corpus = cli.open_cli_corpus(&args.corpus)?;
@@ -393,9 +385,9 @@ fn plan_new_study(
         }
     };
     if let Some(condition) = &args.distance_from {
-        corpus.measure_distances(&mut plan, condition, progress)?;
+        with_progress_bar(|progress| corpus.measure_distances(&mut plan, condition, progress))?;
     }
-    let done = corpus.plan_study(&plan, progress)?;
+    let done = with_progress_bar(|progress| corpus.plan_study(&plan, progress))?;
     print_study_plan(&done.plan, output)?;
     output.write_output_line(match done.replaced {
         true => "replaced the plan, which nobody had answered",
@@ -408,35 +400,27 @@ fn print_study_plan(plan: &StudyPlan, output: &mut CommandOutput) -> Result<()> 
     let language = output.output_language().language_code();
     let local_text = |texts: &LocalizedTexts| text_in(texts, language).unwrap_or_default().to_owned();
     output.line_as_is(&format!("{}: {}", plan.name, local_text(&plan.title)))?;
-    let rows: Vec<Vec<String>> = plan
-        .trials
-        .iter()
-        .map(|item| {
-            let right: Vec<&str> = item.right.values().map(String::as_str).collect();
-            vec![
-                item.part.clone(),
-                item.role.trial_role_name().to_owned(),
-                item.item.clone(),
-                item.condition.clone(),
-                right.join(" "),
-                item.clip.clone(),
-            ]
-        })
-        .collect();
-    output.write_titled_table(&["part", "role", "item", "condition", "right answer", "clip"], &rows)?;
-    let rows: Vec<Vec<String>> = plan
-        .questions
-        .iter()
-        .map(|entry| {
-            vec![
-                entry.name.clone(),
-                format_possible_answers(entry),
-                entry.parts.join(" "),
-                local_text(&entry.text),
-            ]
-        })
-        .collect();
-    output.write_titled_table(&["question", "answers", "parts", "text"], &rows)
+    let right = |trial: &StudyTrial| trial.right.values().map(String::as_str).collect::<Vec<_>>().join(" ");
+    output.write_item_table(
+        &plan.trials,
+        &[
+            ("part", &|trial| trial.part.clone()),
+            ("role", &|trial| trial.role.trial_role_name().to_owned()),
+            ("item", &|trial| trial.item.clone()),
+            ("condition", &|trial| trial.condition.clone()),
+            ("right answer", &right),
+            ("clip", &|trial| trial.clip.clone()),
+        ],
+    )?;
+    output.write_item_table(
+        &plan.questions,
+        &[
+            ("question", &|entry| entry.name.clone()),
+            ("answers", &|entry| format_possible_answers(entry)),
+            ("parts", &|entry| entry.parts.join(" ")),
+            ("text", &|entry| local_text(&entry.text)),
+        ],
+    )
 }
 
 /// Returns the possible answers to a question in short.
