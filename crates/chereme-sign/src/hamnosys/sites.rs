@@ -191,93 +191,45 @@ impl HandAt {
 #[must_use]
 pub fn resolve_body_site(site: &SidedLocation<BodyLocation>, acting: Half, mirrored: bool) -> BodySite {
     let half = half_of_side(site.side, mirrored);
-    let is_beside = matches!(site.side, Some(LocationSide::LeftBeside | LocationSide::RightBeside));
-    let sign = half.map_or(0.0, Half::side_sign);
-    let acting_half = half.unwrap_or(acting);
-    let trunk = |landmark: &str, up: f64| {
-        let far = if is_beside {
-            BESIDE_BODY_SHOULDER_WIDTHS
-        } else {
-            AT_SIDE_SHOULDER_WIDTHS
-        };
-        let back = match half {
-            Some(_) if is_beside => -SIDE_OF_TRUNK_BACK,
-            Some(_) => -0.04,
-            None => 0.0,
-        };
-        BodySite {
-            landmark: landmark.to_owned(),
-            offset: [sign * far, up, back],
-            out: if is_beside { [sign, 0.0, 0.0] } else { [0.0, 0.0, 1.0] },
-            region: BodyRegion::Trunk,
-            lateral: sign
-                * if is_beside {
-                    BESIDE_BODY_SHOULDER_WIDTHS
-                } else {
-                    BEFORE_SIDE_SHOULDER_WIDTHS
-                },
-            beside: is_beside,
-            level: false,
-        }
+    let notated = NotatedSide {
+        half,
+        is_beside: matches!(site.side, Some(LocationSide::LeftBeside | LocationSide::RightBeside)),
+        sign: half.map_or(0.0, Half::side_sign),
+        acting_half: half.unwrap_or(acting),
     };
-    let face = |landmark: String, offset: [f64; 3], out: [f64; 3]| BodySite {
-        landmark,
-        offset: [
-            offset[0] + if is_beside { sign * 0.20 } else { 0.0 },
-            offset[1],
-            offset[2],
-        ],
-        out: if is_beside {
-            [sign, 0.0, 0.0]
-        } else {
-            unit_vector_of(out)
-        },
-        region: BodyRegion::Face,
-        lateral: sign * if is_beside { 0.62 } else { 0.30 },
-        beside: is_beside,
-        level: false,
-    };
+    let NotatedSide { sign, acting_half, .. } = notated;
+    let face = |landmark: String, offset: [f64; 3], out: [f64; 3]| notated.face_site(landmark, offset, out);
     let sided = |name: &str| format!("{}-{name}", acting_half.body_side_name());
     let or = |middle: &str, side: &str| match half {
         Some(half) => format!("{}-{side}", half.body_side_name()),
         None => middle.to_owned(),
     };
     let front = [0.35 * sign, 0.0, 1.0];
+    // Beside its middle the face falls back a little.
     let shifted = |by: f64| [sign * by, 0.0, if half.is_some() { -0.03 } else { 0.0 }];
     match site.at {
-        BodyLocation::NeutralSpace => trunk("chest", -0.12),
-        BodyLocation::Shoulders => trunk("upper-chest", 0.10),
-        BodyLocation::Chest => trunk("chest", 0.0),
-        BodyLocation::Stomach => trunk("stomach", 0.0),
-        BodyLocation::BelowStomach => trunk("abdomen", 0.0),
-        BodyLocation::ShoulderTop => match half {
-            Some(_) if !is_beside => BodySite {
-                landmark: sided("shoulder"),
-                offset: [-0.08 * sign, 0.20, 0.06],
-                out: [0.0, 1.0, 0.0],
-                lateral: sign * BEFORE_SIDE_SHOULDER_WIDTHS,
-                ..trunk("throat", 0.0)
-            },
-            _ => trunk("throat", -0.06),
+        BodyLocation::NeutralSpace => notated.trunk_site("chest", -0.12),
+        BodyLocation::Shoulders => notated.trunk_site("upper-chest", 0.10),
+        BodyLocation::Chest => notated.trunk_site("chest", 0.0),
+        BodyLocation::Stomach => notated.trunk_site("stomach", 0.0),
+        BodyLocation::BelowStomach => notated.trunk_site("abdomen", 0.0),
+        BodyLocation::ShoulderTop if notated.is_at_side() => BodySite {
+            landmark: sided("shoulder"),
+            offset: [-0.08 * sign, 0.20, 0.06],
+            out: [0.0, 1.0, 0.0],
+            ..notated.trunk_site("throat", 0.0)
         },
-        BodyLocation::Neck => match half {
-            Some(_) if !is_beside => BodySite {
-                out: unit_vector_of([0.6 * sign, 0.0, 1.0]),
-                landmark: sided("neck-side"),
-                offset: [0.0, -0.02, 0.10],
-                lateral: sign * BEFORE_SIDE_SHOULDER_WIDTHS,
-                ..trunk("throat", 0.0)
-            },
-            _ => trunk("throat", 0.02),
+        BodyLocation::ShoulderTop => notated.trunk_site("throat", -0.06),
+        BodyLocation::Neck if notated.is_at_side() => BodySite {
+            landmark: sided("neck-side"),
+            offset: [0.0, -0.02, 0.10],
+            out: unit_vector_of([0.6 * sign, 0.0, 1.0]),
+            ..notated.trunk_site("throat", 0.0)
         },
+        BodyLocation::Neck => notated.trunk_site("throat", 0.02),
         BodyLocation::Head => BodySite {
             level: true,
-            lateral: sign
-                * if is_beside {
-                    BESIDE_BODY_SHOULDER_WIDTHS
-                } else {
-                    BEFORE_SIDE_SHOULDER_WIDTHS
-                },
+            lateral: notated.trunk_lateral(),
             ..match half {
                 Some(_) => face(sided("temple"), [0.0, 0.0, 0.0], [sign, 0.0, 0.3]),
                 None => face("eyebrows".into(), [0.0; 3], front),
@@ -312,6 +264,69 @@ pub fn resolve_body_site(site: &SidedLocation<BodyLocation>, acting: Half, mirro
         BodyLocation::Elbow => arm_body_site(site.side, acting, "elbow"),
         BodyLocation::ElbowInside => arm_body_site(Some(site.side.unwrap_or(LocationSide::Front)), acting, "elbow"),
         BodyLocation::LowerArm => arm_body_site(site.side, acting, "forearm"),
+    }
+}
+
+/// The side of the body that a location names.
+#[derive(Clone, Copy)]
+struct NotatedSide {
+    half: Option<Half>,
+    /// Whether it is next to the body.
+    is_beside: bool,
+    /// 1 to the left, -1 to the right, 0 in the middle.
+    sign: f64,
+    /// The named half, else that of the acting hand.
+    acting_half: Half,
+}
+
+impl NotatedSide {
+    fn is_at_side(self) -> bool {
+        self.half.is_some() && !self.is_beside
+    }
+
+    /// Returns the distance to the left of the middle for a hand before the trunk, in shoulder widths.
+    fn trunk_lateral(self) -> f64 {
+        self.sign
+            * match self.is_beside {
+                true => BESIDE_BODY_SHOULDER_WIDTHS,
+                false => BEFORE_SIDE_SHOULDER_WIDTHS,
+            }
+    }
+
+    /// Returns a place of the trunk, `up` shoulder widths above a landmark.
+    fn trunk_site(self, landmark: &str, up: f64) -> BodySite {
+        let (far, back, out) = match self.half {
+            Some(_) if self.is_beside => (BESIDE_BODY_SHOULDER_WIDTHS, -SIDE_OF_TRUNK_BACK, [self.sign, 0.0, 0.0]),
+            // The chest curves back towards its sides.
+            Some(_) => (AT_SIDE_SHOULDER_WIDTHS, -0.04, [0.0, 0.0, 1.0]),
+            None => (0.0, 0.0, [0.0, 0.0, 1.0]),
+        };
+        BodySite {
+            landmark: landmark.to_owned(),
+            offset: [self.sign * far, up, back],
+            out,
+            region: BodyRegion::Trunk,
+            lateral: self.trunk_lateral(),
+            beside: self.is_beside,
+            level: false,
+        }
+    }
+
+    /// Returns a place of the head at an offset from a landmark.
+    fn face_site(self, landmark: String, [left, up, forward]: [f64; 3], out: [f64; 3]) -> BodySite {
+        let (aside, out, lateral) = match self.is_beside {
+            true => (self.sign * 0.20, [self.sign, 0.0, 0.0], 0.62),
+            false => (0.0, unit_vector_of(out), 0.30),
+        };
+        BodySite {
+            landmark,
+            offset: [left + aside, up, forward],
+            out,
+            region: BodyRegion::Face,
+            lateral: self.sign * lateral,
+            beside: self.is_beside,
+            level: false,
+        }
     }
 }
 
@@ -352,7 +367,8 @@ pub fn half_of_side(side: Option<LocationSide>, mirrored: bool) -> Option<Half> 
     Some(if mirrored { half.opposite_side() } else { half })
 }
 
-fn unit_vector_of(v: [f64; 3]) -> [f64; 3] {
+/// Returns a vector of the same direction and length 1.
+pub(super) fn unit_vector_of(v: [f64; 3]) -> [f64; 3] {
     let length = v.iter().map(|part| part * part).sum::<f64>().sqrt();
     v.map(|part| part / length)
 }

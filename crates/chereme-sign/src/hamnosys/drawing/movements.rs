@@ -1,6 +1,7 @@
 //! Draws directions, palms, movements, and their marks.
 
 use super::super::direction::{CompassDirection, SpatialDirection};
+use super::super::sites::unit_vector_of;
 use super::super::symbol::SymbolKind;
 use super::super::tree::{EllipseAxis, MotionSize, WristMotion};
 use super::{DrawingPoint, SymbolDrawing, arc_points, oval, page_point};
@@ -10,27 +11,15 @@ const DRAWING_MIDDLE: DrawingPoint = [0.4, 0.5];
 /// Draws a direction, a palm, a movement, or a mark of one.
 pub(super) fn draw_movement_symbol(kind: SymbolKind) -> SymbolDrawing {
     match kind {
-        SymbolKind::Extended(to) => {
-            let (drawing, right, up, middle) = draw_plane_direction(to);
-            let (tip, back) = (0.3, 0.14);
-            let side = |to: f32| {
-                let (x, y) = (-right * back - up * 0.3 * to, -up * back + right * 0.3 * to);
-                page_point(middle, x, y)
-            };
-            drawing.with_line([side(1.0), page_point(middle, right * tip, up * tip), side(-1.0)])
-        }
+        SymbolKind::Extended(to) => draw_finger_direction(to),
         SymbolKind::Move(to) => {
             let (drawing, right, up, middle) = draw_plane_direction(to);
             let end = |share: f32| page_point(middle, right * 0.34 * share, up * 0.34 * share);
             drawing.with_arrow([end(-1.0), end(1.0)])
         }
-        SymbolKind::Palm(to) => {
-            let (right, up) = on_page(to);
-            let turn = (-up).atan2(right) / std::f32::consts::TAU;
-            SymbolDrawing::new(0.6)
-                .with_line(oval([0.3, 0.5], [0.26, 0.26]))
-                .solid(arc_points([0.3, 0.5], [0.26, 0.26], turn - 0.25, turn + 0.25))
-        }
+        SymbolKind::Palm(to) => SymbolDrawing::new(0.6)
+            .with_line(oval([0.3, 0.5], [0.26, 0.26]))
+            .solid(half_arc_points(to, [0.3, 0.5], 0.26)),
         SymbolKind::Circle(axis) => draw_axis_circle(axis),
         SymbolKind::Clock(at) => {
             let (right, up) = on_page(at);
@@ -44,23 +33,11 @@ pub(super) fn draw_movement_symbol(kind: SymbolKind) -> SymbolDrawing {
             .with_dot(DRAWING_MIDDLE),
         SymbolKind::Arc(to) => {
             let (right, up) = on_page(to);
-            let turn = (-up).atan2(right) / std::f32::consts::TAU;
             let ends = [0.32, -0.32].map(|share| page_point(DRAWING_MIDDLE, -up * share, right * share));
-            SymbolDrawing::new(0.8).thin(ends).with_line(arc_points(
-                DRAWING_MIDDLE,
-                [0.32, 0.32],
-                turn - 0.25,
-                turn + 0.25,
-            ))
+            let drawing = SymbolDrawing::new(0.8).thin(ends);
+            drawing.with_line(half_arc_points(to, DRAWING_MIDDLE, 0.32))
         }
-        SymbolKind::Zigzag { wavy: true } => SymbolDrawing::new(0.9).with_line(
-            (0..=40u8)
-                .map(|step| {
-                    let t = f32::from(step) / 40.0;
-                    [0.06 + 0.78 * t, 0.5 - 0.2 * (t * 2.0 * std::f32::consts::TAU).sin()]
-                })
-                .collect::<Vec<_>>(),
-        ),
+        SymbolKind::Zigzag { wavy: true } => SymbolDrawing::new(0.9).with_line(wave_points()),
         SymbolKind::Zigzag { wavy: false } => SymbolDrawing::new(0.9).with_line([
             [0.06, 0.66],
             [0.2, 0.34],
@@ -70,18 +47,7 @@ pub(super) fn draw_movement_symbol(kind: SymbolKind) -> SymbolDrawing {
             [0.76, 0.34],
             [0.84, 0.52],
         ]),
-        SymbolKind::Ellipse(ellipse) => {
-            let turned: f32 = match ellipse {
-                EllipseAxis::Horizontal => 0.0,
-                EllipseAxis::UpRight => -45.0,
-                EllipseAxis::Vertical => 90.0,
-                EllipseAxis::UpLeft => 45.0,
-            };
-            let (sin, cos) = turned.to_radians().sin_cos();
-            let points = oval([0.0, 0.0], [0.36, 0.17]);
-            let turn = |[x, y]: DrawingPoint| [0.4 + x * cos - y * sin, 0.5 + x * sin + y * cos];
-            SymbolDrawing::new(0.8).with_line(points.into_iter().map(turn).collect::<Vec<_>>())
-        }
+        SymbolKind::Ellipse(axis) => SymbolDrawing::new(0.8).with_line(ellipse_points(axis)),
         SymbolKind::Growth { increasing } => {
             let (narrow, wide) = if increasing { (0.06, 0.74) } else { (0.74, 0.06) };
             SymbolDrawing::new(0.8).with_line([[wide, 0.26], [narrow, 0.5], [wide, 0.74]])
@@ -109,18 +75,7 @@ pub(super) fn draw_movement_symbol(kind: SymbolKind) -> SymbolDrawing {
             .with_line([[0.06, 0.4], [0.68, 0.4]])
             .with_line([[0.06, 0.6], [0.68, 0.6]])
             .with_line([[0.58, 0.22], [0.84, 0.5], [0.58, 0.78]]),
-        SymbolKind::Cross { diagonal } => {
-            let at = |x: f32, y: f32| {
-                if diagonal {
-                    page_point(DRAWING_MIDDLE, (x - y) * 0.7, (x + y) * 0.7)
-                } else {
-                    page_point(DRAWING_MIDDLE, x, y)
-                }
-            };
-            SymbolDrawing::new(0.8)
-                .with_arrow([at(-0.34, 0.0), at(0.34, 0.0)])
-                .with_arrow([at(0.0, 0.34), at(0.0, -0.34)])
-        }
+        SymbolKind::Cross { diagonal } => draw_crossing_arrows(diagonal),
         SymbolKind::Still => SymbolDrawing::new(0.8)
             .with_line(oval(DRAWING_MIDDLE, [0.28, 0.28]))
             .with_line([[0.2, 0.7], [0.6, 0.3]]),
@@ -131,6 +86,56 @@ pub(super) fn draw_movement_symbol(kind: SymbolKind) -> SymbolDrawing {
             .with_line(arc_points([0.4, 0.6], [0.16, 0.14], 0.02, 0.48)),
         _ => SymbolDrawing::default(),
     }
+}
+
+/// Draws the direction of the fingers as the tip of an arrow.
+fn draw_finger_direction(to: SpatialDirection) -> SymbolDrawing {
+    let (drawing, right, up, middle) = draw_plane_direction(to);
+    let (tip, back) = (0.3, 0.14);
+    let side = |to: f32| {
+        let (x, y) = (-right * back - up * 0.3 * to, -up * back + right * 0.3 * to);
+        page_point(middle, x, y)
+    };
+    drawing.with_line([side(1.0), page_point(middle, right * tip, up * tip), side(-1.0)])
+}
+
+/// Returns the half of a circle that lies in a direction.
+fn half_arc_points(to: CompassDirection, middle: DrawingPoint, radius: f32) -> Vec<DrawingPoint> {
+    let (right, up) = on_page(to);
+    // Arcs count turns clockwise from the right, as y goes down the page.
+    let turn = (-up).atan2(right) / std::f32::consts::TAU;
+    arc_points(middle, [radius, radius], turn - 0.25, turn + 0.25)
+}
+
+/// Returns two waves across the page.
+fn wave_points() -> Vec<DrawingPoint> {
+    let point = |step: u8| {
+        let t = f32::from(step) / 40.0;
+        [0.06 + 0.78 * t, 0.5 - 0.2 * (t * 2.0 * std::f32::consts::TAU).sin()]
+    };
+    (0..=40).map(point).collect()
+}
+
+fn ellipse_points(axis: EllipseAxis) -> Vec<DrawingPoint> {
+    let turned: f32 = match axis {
+        EllipseAxis::Horizontal => 0.0,
+        EllipseAxis::UpRight => -45.0,
+        EllipseAxis::Vertical => 90.0,
+        EllipseAxis::UpLeft => 45.0,
+    };
+    let (sin, cos) = turned.to_radians().sin_cos();
+    let turn = |[x, y]: DrawingPoint| [0.4 + x * cos - y * sin, 0.5 + x * sin + y * cos];
+    oval([0.0, 0.0], [0.36, 0.17]).into_iter().map(turn).collect()
+}
+
+fn draw_crossing_arrows(diagonal: bool) -> SymbolDrawing {
+    let at = |x: f32, y: f32| match diagonal {
+        true => page_point(DRAWING_MIDDLE, (x - y) * 0.7, (x + y) * 0.7),
+        false => page_point(DRAWING_MIDDLE, x, y),
+    };
+    SymbolDrawing::new(0.8)
+        .with_arrow([at(-0.34, 0.0), at(0.34, 0.0)])
+        .with_arrow([at(0.0, 0.34), at(0.0, -0.34)])
 }
 
 /// Returns the direction of a compass on the page: to the right, and up.
@@ -178,17 +183,13 @@ fn dot_product(a: [f64; 3], b: [f64; 3]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-fn unit_vector(v: [f64; 3]) -> [f64; 3] {
-    v.map(|part| part / dot_product(v, v).sqrt())
-}
-
 /// A circle about an axis, seen from behind, above and a little from the right.
 fn draw_axis_circle(axis: SpatialDirection) -> SymbolDrawing {
     let axis = axis.spatial_direction_vector();
-    let right = unit_vector(cross_product(CIRCLE_SIGHT_LINE, [0.0, 1.0, 0.0]));
-    let up = unit_vector(cross_product(right, CIRCLE_SIGHT_LINE));
+    let right = unit_vector_of(cross_product(CIRCLE_SIGHT_LINE, [0.0, 1.0, 0.0]));
+    let up = unit_vector_of(cross_product(right, CIRCLE_SIGHT_LINE));
     // The circle begins at its farthest point along the page.
-    let side = unit_vector(cross_product(axis, CIRCLE_SIGHT_LINE));
+    let side = unit_vector_of(cross_product(axis, CIRCLE_SIGHT_LINE));
     let across = cross_product(axis, side);
     let points: Vec<DrawingPoint> = (0..=30u8)
         .map(|step| {
