@@ -315,74 +315,51 @@ impl CameraFilm {
     ) -> Result<(), KeypointError> {
         let mut bodies: Vec<Vec<KeypointSample>> = Vec::new();
         let mut free: Vec<usize> = (0..self.people.len()).collect();
-        for person in people {
-            let Value::Object(person) = person else {
-                continue;
-            };
-            let number = person_number(person);
-            let mut points = Vec::new();
-            for (group, values) in person {
-                let Value::Array(values) = values else {
-                    continue;
-                };
-                if group.ends_with("_3d") && !values.is_empty() {
-                    findings.add_limited_finding("points in three dimensions", || {
-                        ImportFinding::new_warning_finding(
-                            None,
-                            format!("the points {group:?} in three dimensions are left out: their unit is not stated"),
-                        )
-                    });
-                }
-                if group.ends_with("_keypoints_2d") || group.ends_with("_keypoints") {
-                    cloud::add_openpose_triples(group, values, &mut points);
-                }
-            }
+        for person in people.iter().filter_map(Value::as_object) {
+            let points = openpose_points(person, findings);
             if !points.iter().any(KeypointSample::is_seen) {
                 continue;
             }
-            let Some(number) = number else {
-                bodies.push(points);
-                continue;
-            };
-            let matched_person = self
-                .people
-                .iter()
-                .position(|person| person.stated_person_number() == Some(number));
-            let person_index = match matched_person {
-                // A number that occurs twice in a frame identifies nobody.
-                Some(known) if !free.contains(&known) => {
-                    bodies.push(points);
-                    continue;
+            match person_number(person).and_then(|number| self.numbered_person(number, &free)) {
+                Some(numbered) => {
+                    free.retain(|index| *index != numbered);
+                    self.people[numbered].push_cloud_points(row, points)?;
                 }
-                Some(known) => known,
-                None if self.people.len() == MAX_FOLLOWED_PEOPLE => {
-                    bodies.push(points);
-                    continue;
-                }
-                None => {
-                    self.people.push(PersonCloud::of_person(number));
-                    self.people.len() - 1
-                }
-            };
-            free.retain(|index| *index != person_index);
-            self.people[person_index].push_cloud_points(row, points)?;
+                None => bodies.push(points),
+            }
         }
         free.retain(|index| self.people[*index].stated_person_number().is_none());
+        self.add_unnumbered_people(row, bodies, free, findings)
+    }
+
+    /// Returns the index of the person with a number, who is new if nobody has it; `None` if another body of the frame
+    /// is that person already, or no further person is followed.
+    fn numbered_person(&mut self, number: u64, free: &[usize]) -> Option<usize> {
+        let mut people = self.people.iter();
+        match people.position(|person| person.stated_person_number() == Some(number)) {
+            // A number that occurs twice in a frame identifies nobody.
+            Some(known) => free.contains(&known).then_some(known),
+            None if self.people.len() == MAX_FOLLOWED_PEOPLE => None,
+            None => {
+                self.people.push(PersonCloud::of_person(number));
+                Some(self.people.len() - 1)
+            }
+        }
+    }
+
+    /// Adds bodies without a number, each to the nearest person of those who are free.
+    fn add_unnumbered_people(
+        &mut self,
+        row: usize,
+        mut bodies: Vec<Vec<KeypointSample>>,
+        mut free: Vec<usize>,
+        findings: &mut FindingTally,
+    ) -> Result<(), KeypointError> {
         // Pairs the nearest first, so that two people who pass each other are not exchanged because of their order in
         // the file.
         while !bodies.is_empty() {
-            let mut best: Option<(f64, usize, usize)> = None;
-            for (body, points) in bodies.iter().enumerate() {
-                let body_middle = cloud::mean_seen_position(points);
-                for &known in &free {
-                    let far = self.people[known].distance_from_last(body_middle);
-                    if best.is_none_or(|(least, _, _)| far < least) {
-                        best = Some((far, body, known));
-                    }
-                }
-            }
-            let (body, known) = match best {
-                Some((_, body, known)) => (body, known),
+            let (body, known) = match self.nearest_person(&bodies, &free) {
+                Some(nearest) => nearest,
                 None if self.people.len() == MAX_FOLLOWED_PEOPLE => {
                     let left = bodies.len();
                     findings.add_limited_finding("people who are left out", || {
@@ -397,7 +374,6 @@ impl CameraFilm {
                 }
                 None => {
                     self.people.push(PersonCloud::new(PointSpace::Pixels));
-                    free.push(self.people.len() - 1);
                     (0, self.people.len() - 1)
                 }
             };
@@ -414,6 +390,17 @@ impl CameraFilm {
             self.people[known].push_cloud_points(row, points)?;
         }
         Ok(())
+    }
+
+    /// Returns the body and the free person that are nearest to each other, the first of several in the file's order.
+    fn nearest_person(&self, bodies: &[Vec<KeypointSample>], free: &[usize]) -> Option<(usize, usize)> {
+        let pairs = bodies.iter().enumerate().flat_map(|(body, points)| {
+            let body_middle = cloud::mean_seen_position(points);
+            free.iter()
+                .map(move |&known| (self.people[known].distance_from_last(body_middle), body, known))
+        });
+        let nearest = pairs.reduce(|best, other| if other.0 < best.0 { other } else { best });
+        nearest.map(|(_, body, known)| (body, known))
     }
 
     /// Adds MediaPipe's landmarks of a frame.
@@ -457,6 +444,28 @@ impl CameraFilm {
         let mut all = self.people.iter_mut().chain(&mut self.marks);
         all.try_for_each(|cloud| cloud.extend_cloud_rows(rows))
     }
+}
+
+/// Returns the points of a person of OpenPose in the picture.
+fn openpose_points(person: &Map<String, Value>, findings: &mut FindingTally) -> Vec<KeypointSample> {
+    let mut points = Vec::new();
+    for (group, values) in person {
+        let Value::Array(values) = values else {
+            continue;
+        };
+        if group.ends_with("_3d") && !values.is_empty() {
+            findings.add_limited_finding("points in three dimensions", || {
+                ImportFinding::new_warning_finding(
+                    None,
+                    format!("the points {group:?} in three dimensions are left out: their unit is not stated"),
+                )
+            });
+        }
+        if group.ends_with("_keypoints_2d") || group.ends_with("_keypoints") {
+            cloud::add_openpose_triples(group, values, &mut points);
+        }
+    }
+    points
 }
 
 /// Returns the number of a person of OpenPose; -1 is none.
