@@ -273,10 +273,10 @@ fn curve_row_times(
         _ => RecordingInstant::from_seconds(first),
     };
     if matches!(kind, CurveFile::LiveLink | CurveFile::Packets) {
-        findings.push_counted_finding(ImportFinding::new_note_finding(
+        findings.push_note_finding(
             None,
             format!("its first row has the time {first:.3} s of the day; that is 0 s here"),
-        ));
+        );
     }
     let from_first: Vec<f64> = seconds.iter().map(|time| time - first).collect();
     let count = from_first.len();

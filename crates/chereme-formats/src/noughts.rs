@@ -69,10 +69,10 @@ pub(crate) fn open_noughts(names: &[String], columns: &mut [Vec<Option<FileNumbe
         );
     }
     if left > 0 {
-        findings.push_counted_finding(ImportFinding::new_warning_finding(
+        findings.push_warning_finding(
             None,
             format!("{left} places are exactly 0 0 0 though the file calls them seen; some programs write gaps so"),
-        ));
+        );
     }
 }
 

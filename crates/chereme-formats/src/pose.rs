@@ -147,10 +147,10 @@ pub fn read_pose_file(bytes: &[u8]) -> Result<(CapturedTracks, Vec<ImportFinding
     }
     if body.crowd > MAX_POSE_PEOPLE {
         let others = body.crowd - MAX_POSE_PEOPLE;
-        findings.push_counted_finding(ImportFinding::new_warning_finding(
+        findings.push_warning_finding(
             None,
             format!("{others} more people are in the film; only the first {MAX_POSE_PEOPLE} were read"),
-        ));
+        );
     }
     let rate = rate_of(body.rate).ok_or_else(|| PoseFileError::Rate(body.rate.to_string()))?;
     let mut tracks = CapturedTracks::default();
@@ -187,7 +187,7 @@ pub fn read_pose_file(bytes: &[u8]) -> Result<(CapturedTracks, Vec<ImportFinding
         true => "the points are estimated from film; they have no depth",
         false => "the points are estimated from film",
     };
-    findings.push_counted_finding(ImportFinding::new_note_finding(None, note));
+    findings.push_note_finding(None, note);
     Ok((tracks, findings.finish_finding_tally()))
 }
 
@@ -494,8 +494,8 @@ fn unscale(points: &mut [MotionMarker], size: [f64; 2], findings: &mut FindingTa
             *column = FrameNumberColumn::from_double_floats(metres.collect());
         }
     }
-    findings.push_counted_finding(ImportFinding::new_note_finding(
+    findings.push_note_finding(
         None,
         "the landmarks in metres were multiplied by the picture's width and height; they are divided by them again",
-    ));
+    );
 }

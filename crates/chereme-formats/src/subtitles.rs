@@ -58,8 +58,8 @@ pub fn read_subtitles(bytes: &[u8]) -> Result<(AnnotationTranscript, Vec<ImportF
     let mut lines = (1u64..).zip(text.lines()).peekable();
     while let Some((line, text)) = lines.next() {
         if is_vtt && is_block(text) {
-            findings.add_limited_finding("blocks of notes and styles", || {
-                ImportFinding::new_note_finding(line, format!("the block {:?} was left out", text.trim()))
+            findings.add_limited_note("blocks of notes and styles", line, || {
+                format!("the block {:?} was left out", text.trim())
             });
             while lines.next_if(|(_, text)| !text.trim().is_empty()).is_some() {}
             continue;
@@ -87,13 +87,10 @@ pub fn read_subtitles(bytes: &[u8]) -> Result<(AnnotationTranscript, Vec<ImportF
             }
             match cues.last_mut().filter(|_| follows_cue && !is_vtt) {
                 Some((_, said, _)) => {
-                    findings.add_limited_finding("blank lines within cues", || {
-                        ImportFinding::new_note_finding(
-                            line,
-                            format!(
-                                "the text {:?} stands after a blank line; it was added to the cue before it",
-                                text.trim()
-                            ),
+                    findings.add_limited_note("blank lines within cues", line, || {
+                        format!(
+                            "the text {:?} stands after a blank line; it was added to the cue before it",
+                            text.trim()
                         )
                     });
                     if !said.is_empty() {
@@ -113,9 +110,7 @@ pub fn read_subtitles(bytes: &[u8]) -> Result<(AnnotationTranscript, Vec<ImportF
         };
         follows_cue = true;
         if settings {
-            findings.add_limited_finding("positions of cues", || {
-                ImportFinding::new_note_finding(line, "the position of the cue was left out")
-            });
+            findings.add_limited_note("positions of cues", line, || "the position of the cue was left out");
         }
         let mut text_lines: Vec<&str> = Vec::new();
         while let Some((_, text)) = lines.next_if(|(_, text)| is_text(text)) {
@@ -191,9 +186,7 @@ fn cues_to_transcript(
     for (at, (span, text, line)) in cues.into_iter().enumerate() {
         let (voice, value) = split_cue_voice(&text, is_vtt);
         if value.is_empty() {
-            findings.add_limited_finding("empty cues", || {
-                ImportFinding::new_note_finding(line, "an empty cue was left out")
-            });
+            findings.add_limited_note("empty cues", line, || "an empty cue was left out");
             continue;
         }
         let same = |tier: &TranscriptTier| tier.participant.as_deref() == voice.as_deref();
@@ -230,13 +223,10 @@ fn cues_to_transcript(
             let start = tier.annotations[at].span.span_start_instant();
             let before = &mut tier.annotations[at - 1];
             if before.span.span_end_instant() > start {
-                findings.add_limited_finding("overlapping cues", || {
-                    ImportFinding::new_warning_finding(
-                        None,
-                        format!(
-                            "the cue {:?} ends after the next begins; it ends at {start} now",
-                            before.value
-                        ),
+                findings.add_limited_warning("overlapping cues", None, || {
+                    format!(
+                        "the cue {:?} ends after the next begins; it ends at {start} now",
+                        before.value
                     )
                 });
                 before.span = TimeSpan::span_between(before.span.span_start_instant(), start);
@@ -244,10 +234,10 @@ fn cues_to_transcript(
         }
         let empty = tier.annotations.iter().filter(|cue| cue.span.is_empty()).count();
         if empty > 0 {
-            findings.push_counted_finding(ImportFinding::new_warning_finding(
+            findings.push_warning_finding(
                 None,
                 format!("{empty} cues begin together with the next one and were left out"),
-            ));
+            );
             tier.annotations.retain(|cue| !cue.span.is_empty());
         }
     }

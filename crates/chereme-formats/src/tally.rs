@@ -21,6 +21,26 @@ impl FindingTally {
         }
     }
 
+    /// Adds a note on a line, or on the whole file, unless enough of its `kind` have been reported.
+    pub(crate) fn add_limited_note<M: Into<String>>(
+        &mut self,
+        kind: &'static str,
+        line: impl Into<Option<u64>>,
+        message: impl FnOnce() -> M,
+    ) {
+        self.add_limited_finding(kind, || ImportFinding::new_note_finding(line, message()));
+    }
+
+    /// Adds a warning as [`add_limited_note`](Self::add_limited_note) adds a note.
+    pub(crate) fn add_limited_warning<M: Into<String>>(
+        &mut self,
+        kind: &'static str,
+        line: impl Into<Option<u64>>,
+        message: impl FnOnce() -> M,
+    ) {
+        self.add_limited_finding(kind, || ImportFinding::new_warning_finding(line, message()));
+    }
+
     /// Adds the finding from `make`, unless there is one with the same message.
     pub(crate) fn add_unique_finding(&mut self, make: impl FnOnce() -> ImportFinding) {
         let finding = make();
@@ -39,6 +59,16 @@ impl FindingTally {
     /// Adds a finding that was counted.
     pub(crate) fn push_counted_finding(&mut self, finding: ImportFinding) {
         self.listed.push(finding);
+    }
+
+    /// Adds a note on a line, or on the whole file.
+    pub(crate) fn push_note_finding(&mut self, line: impl Into<Option<u64>>, message: impl Into<String>) {
+        self.push_counted_finding(ImportFinding::new_note_finding(line, message));
+    }
+
+    /// Adds a warning on a line, or on the whole file.
+    pub(crate) fn push_warning_finding(&mut self, line: impl Into<Option<u64>>, message: impl Into<String>) {
+        self.push_counted_finding(ImportFinding::new_warning_finding(line, message));
     }
 
     /// Returns the findings in their order, and the counts of the unreported ones.

@@ -193,10 +193,10 @@ pub(crate) fn axes_with_up(markers: &[MotionMarker], up: AxisDirection, findings
     if let Some(axes) = left_of(markers, up).and_then(|left| SignerAxes::new(up, left)) {
         return axes;
     }
-    findings.push_counted_finding(ImportFinding::new_note_finding(
+    findings.push_note_finding(
         None,
         "no pair of markers such as LSHO and RSHO shows which side is left; the first axis that fits is taken",
-    ));
+    );
     let all = ["+Z,+X", "+Y,+X", "+X,+Y", "-Z,+X", "-Y,+X", "-X,+Y"];
     let fits = all
         .iter()

@@ -212,10 +212,10 @@ fn read_trc_table<'t>(
     }
     table.has_commas &= !has_points;
     if table.has_commas {
-        findings.push_counted_finding(ImportFinding::new_note_finding(
+        findings.push_note_finding(
             table.lines.first().map(|(line, _)| *line),
             "the numbers have decimal commas",
-        ));
+        );
     }
     Ok(table)
 }
@@ -307,10 +307,7 @@ fn check_count(key: &str, stated: Option<&str>, found: usize, findings: &mut Fin
     if let Some(count) = stated.and_then(|text| text.parse::<usize>().ok())
         && count != found
     {
-        findings.push_counted_finding(ImportFinding::new_note_finding(
-            3,
-            format!("{key} says {count}, and the file holds {found}"),
-        ));
+        findings.push_note_finding(3, format!("{key} says {count}, and the file holds {found}"));
     }
 }
 
@@ -318,7 +315,7 @@ fn infer_trc_convention(unit: Option<&str>, points: &[MotionMarker], findings: &
     let unit = unit.unwrap_or_default();
     let metres_per_unit = metres_of_unit(unit).unwrap_or_else(|| {
         let text = format!("the unit is {unit:?}; millimetres are assumed");
-        findings.push_counted_finding(ImportFinding::new_note_finding(3, text));
+        findings.push_note_finding(3, text);
         0.001
     });
     let up = up_of(points).unwrap_or_else(|| {

@@ -26,19 +26,16 @@ pub(super) fn transcript_from_anvil(document: &AnvilDocument<'_>) -> (Annotation
         ..AnnotationTranscript::default()
     };
     if let Some(specification) = &document.specification {
-        findings.push_counted_finding(ImportFinding::new_note_finding(
+        findings.push_note_finding(
             None,
             format!(
                 "the specification {specification:?} is another file and is not read; values are those of the elements"
             ),
-        ));
+        );
     }
     for (name, many) in &document.sets {
-        findings.add_limited_finding("sets", || {
-            ImportFinding::new_warning_finding(
-                None,
-                format!("the set {name:?} has no times; its {many} elements were left out"),
-            )
+        findings.add_limited_warning("sets", None, || {
+            format!("the set {name:?} has no times; its {many} elements were left out")
         });
     }
     let placed = place_anvil_tracks(document, &mut findings);
@@ -71,11 +68,8 @@ fn convert_anvil_media(document: &AnvilDocument<'_>, findings: &mut FindingTally
                 media.push(media_from_url(source.trim()));
             }
         } else {
-            findings.add_limited_finding("other files of the head", || {
-                ImportFinding::new_note_finding(
-                    None,
-                    format!("the head names {source:?}, too (<{name}>); import it by itself"),
-                )
+            findings.add_limited_note("other files of the head", None, || {
+                format!("the head names {source:?}, too (<{name}>); import it by itself")
             });
         }
     }
@@ -122,11 +116,8 @@ impl AnvilTierBuilder<'_> {
             mains.push(main);
             let name = self.names.give_unique_name(&wanted);
             if lane == 0 && name != wanted {
-                findings.add_limited_finding("tiers of one name", || {
-                    ImportFinding::new_note_finding(
-                        self.document.anvil_line_at(track.at),
-                        format!("another tier is called {:?}, too; here it is {name:?}", track.name),
-                    )
+                findings.add_limited_note("tiers of one name", self.document.anvil_line_at(track.at), || {
+                    format!("another tier is called {:?}, too; here it is {name:?}", track.name)
                 });
             }
             self.tiers.push(TranscriptTier {
@@ -220,13 +211,10 @@ impl AnvilTierBuilder<'_> {
             if let Some(before) = values.get_mut(&number) {
                 before.push_str("; ");
                 before.push_str(&value);
-                findings.add_limited_finding("attributes twice", || {
-                    ImportFinding::new_warning_finding(
-                        self.document.anvil_line_at(element.at),
-                        format!(
-                            "an element of the track {:?} has the attribute {:?} twice; both values are kept",
-                            track.name, attribute.name
-                        ),
+                findings.add_limited_warning("attributes twice", self.document.anvil_line_at(element.at), || {
+                    format!(
+                        "an element of the track {:?} has the attribute {:?} twice; both values are kept",
+                        track.name, attribute.name
                     )
                 });
             } else {
@@ -239,13 +227,13 @@ impl AnvilTierBuilder<'_> {
     /// Links the tiers of tracks that refer to others, once all tiers are there.
     fn link_track_tiers(&mut self, placed: &[PlacedTrack], findings: &mut FindingTally) {
         if self.links > 0 {
-            findings.push_counted_finding(ImportFinding::new_note_finding(
+            findings.push_note_finding(
                 None,
                 format!(
                     "links to other elements are kept as texts, the track and the index: {}",
                     self.links
                 ),
-            ));
+            );
         }
         for (track, own) in placed.iter().enumerate() {
             let Some((_, above)) = own.below else {

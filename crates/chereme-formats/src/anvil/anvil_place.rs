@@ -199,13 +199,10 @@ impl<'d> TrackPlacing<'d> {
 
     fn anvil_track_kind(&self, track: &AnvilTrack<'_>, findings: &mut FindingTally) -> AnvilTrackKind {
         AnvilTrackKind::parse_track_kind(&track.kind).unwrap_or_else(|| {
-            findings.add_limited_finding("tracks of unknown types", || {
-                ImportFinding::new_note_finding(
-                    self.document.anvil_line_at(track.at),
-                    format!(
-                        "the track {:?} is of the type {:?}, which is not known; its elements are read by their times",
-                        track.name, track.kind
-                    ),
+            findings.add_limited_note("tracks of unknown types", self.document.anvil_line_at(track.at), || {
+                format!(
+                    "the track {:?} is of the type {:?}, which is not known; its elements are read by their times",
+                    track.name, track.kind
                 )
             });
             match track.elements.iter().all(|element| element.time.is_some()) && !track.elements.is_empty() {
@@ -323,13 +320,10 @@ impl<'d> TrackPlacing<'d> {
             });
         }
         if !all.is_empty() {
-            findings.add_limited_finding("tracks of spans", || {
-                ImportFinding::new_note_finding(
-                    self.document.anvil_line_at(track.at),
-                    format!(
-                        "the elements of the track {:?} span those of {:?}: they have their times, and no link to them",
-                        track.name, self.document.tracks[above].name
-                    ),
+            findings.add_limited_note("tracks of spans", self.document.anvil_line_at(track.at), || {
+                format!(
+                    "the elements of the track {:?} span those of {:?}: they have their times, and no link to them",
+                    track.name, self.document.tracks[above].name
                 )
             });
         }
@@ -410,15 +404,10 @@ impl<'d> TrackPlacing<'d> {
                     *cut = Some(stated);
                     last = stated;
                 }
-                Some(stated) => findings.add_limited_finding("boundaries out of order", || {
-                    ImportFinding::new_warning_finding(
-                        self.document.anvil_line_at(element(part).at),
-                        format!(
+                Some(stated) => findings.add_limited_warning("boundaries out of order", self.document.anvil_line_at(element(part).at), || format!(
                             "the boundary at {stated} on the track {:?} is out of order; the elements beside it share their time evenly",
                             track.name
-                        ),
-                    )
-                }),
+                        )),
                 None => {}
             }
         }

@@ -38,13 +38,13 @@ pub fn read_c3d(bytes: &[u8]) -> Result<(CapturedTracks, Vec<ImportFinding>), C3
     let document = c3d_raw::read_c3d_document(bytes)?;
     let mut findings = FindingTally::default();
     if document.frames < document.promised_frames {
-        findings.push_counted_finding(ImportFinding::new_warning_finding(
+        findings.push_warning_finding(
             None,
             format!(
                 "the file promises {} frames and holds {}",
                 document.promised_frames, document.frames
             ),
-        ));
+        );
     }
     if document.unread_frames > 0 {
         findings.push_counted_finding(
@@ -59,22 +59,22 @@ pub fn read_c3d(bytes: &[u8]) -> Result<(CapturedTracks, Vec<ImportFinding>), C3
         );
     }
     if let Some(other) = document.other_rate {
-        findings.push_counted_finding(ImportFinding::new_warning_finding(
+        findings.push_warning_finding(
             None,
             format!(
                 "the header states {other} frames a second and POINT:RATE {}, which are taken",
                 document.rate
             ),
-        ));
+        );
     }
     if document.first_frame != 1 {
-        findings.push_counted_finding(ImportFinding::new_note_finding(
+        findings.push_note_finding(
             None,
             format!(
                 "it begins with frame {} of its capture; that is 0 s here",
                 document.first_frame
             ),
-        ));
+        );
     }
     let rate = rate_of(document.rate).ok_or_else(|| C3dError::Rate(document.rate.to_string()))?;
     let reader = C3dReader {
@@ -159,12 +159,12 @@ impl C3dReader<'_> {
             .collect();
         let made = made_markers?;
         if nought > 0 {
-            findings.push_counted_finding(ImportFinding::new_warning_finding(
+            findings.push_warning_finding(
                 None,
                 format!(
                     "{nought} places are exactly 0 0 0 though the file calls them seen; some programs write gaps so"
                 ),
-            ));
+            );
         }
         let convention = self.c3d_convention(&made, findings);
         let markers = MarkerTrack::new(self.times.clone(), MarkerSpace::World(convention), made).ok()?;
@@ -230,10 +230,7 @@ impl C3dReader<'_> {
         let parameters = &self.document.parameters;
         let unit = parameters.parameter_text("POINT:UNITS").unwrap_or_default();
         let metres_per_unit = metres_of_unit(unit).unwrap_or_else(|| {
-            findings.push_counted_finding(ImportFinding::new_note_finding(
-                None,
-                format!("the unit of points is {unit:?}; millimetres are assumed"),
-            ));
+            findings.push_note_finding(None, format!("the unit of points is {unit:?}; millimetres are assumed"));
             0.001
         });
         let up = self.find_up_direction(markers, findings);
@@ -324,11 +321,8 @@ impl C3dReader<'_> {
             let scaled = unit.is_finite() && unit != 0.0 && zero.is_finite();
             let (unit, zero) = if scaled { (unit, zero) } else { (1.0, 0.0) };
             if !scaled {
-                findings.add_limited_finding("analog channels without a scale", || {
-                    ImportFinding::new_warning_finding(
-                        None,
-                        format!("the analog channel {name:?} has no usable scale; its numbers are the file's own"),
-                    )
+                findings.add_limited_warning("analog channels without a scale", None, || {
+                    format!("the analog channel {name:?} has no usable scale; its numbers are the file's own")
                 });
             }
             let column = if document.is_real() {
@@ -383,10 +377,10 @@ impl C3dReader<'_> {
         });
         if !outside.is_empty() {
             let labels: Vec<&str> = outside.iter().map(|(_, label)| label.as_str()).collect();
-            findings.push_counted_finding(ImportFinding::new_note_finding(
+            findings.push_note_finding(
                 None,
                 format!("events outside the frames were left out: {}", labels.join(", ")),
-            ));
+            );
         }
         let named = inside.into_iter().map(|(seconds, label)| {
             let label = if label.is_empty() { "event".to_owned() } else { label };

@@ -150,12 +150,12 @@ pub(super) fn live_link(text: &str, findings: &mut FindingTally) -> Result<Curve
     let blank = table.rows.iter().filter(|(_, row)| has_no_face(row));
     match blank.count() {
         0 => {}
-        blank => findings.push_counted_finding(ImportFinding::new_warning_finding(
+        blank => findings.push_warning_finding(
             None,
             format!(
                 "rows without a face (BlendShapeCount is 0), whose numbers, if there are any, mean nothing: {blank}"
             ),
-        )),
+        ),
     }
     let code = |(line, row): &(u64, csv::StringRecord)| {
         timecode::parse_timecode(&row[0]).ok_or_else(|| CurveError::curve_cell_error(*line, &row[0], "timecode"))
@@ -164,29 +164,26 @@ pub(super) fn live_link(text: &str, findings: &mut FindingTally) -> Result<Curve
     let times = timecode::infer_timecode_times(&codes?);
     let base = times.base;
     if times.is_guessed && times.seconds.len() > 1 {
-        findings.push_counted_finding(ImportFinding::new_warning_finding(
+        findings.push_warning_finding(
             1,
             format!(
                 "no step into the next second shows how many frames a second its timecodes count; {base} are taken"
             ),
-        ));
+        );
     } else {
-        findings.push_counted_finding(ImportFinding::new_note_finding(
-            1,
-            format!("its timecodes count {base} frames a second"),
-        ));
+        findings.push_note_finding(1, format!("its timecodes count {base} frames a second"));
     }
     if times.drops {
-        findings.push_counted_finding(ImportFinding::new_note_finding(
+        findings.push_note_finding(
             1,
             format!("its timecodes leave out frames (drop frame), so {base} of them last 1.001 s"),
-        ));
+        );
     }
     if times.repeats {
-        findings.push_counted_finding(ImportFinding::new_note_finding(
+        findings.push_note_finding(
             1,
             "the decimals of its timecodes are those of the second, which the frames show already",
-        ));
+        );
     }
     channels.clock = CurveClock::Seconds(times.seconds);
     let is_turn = |name: &str| {
@@ -244,13 +241,13 @@ pub(super) fn open_face(text: &str, findings: &mut FindingTally) -> Result<Vec<C
     }
     if faces.len() > 1 {
         let names: Vec<&str> = faces.iter().map(|(name, _)| name.as_str()).collect();
-        findings.push_counted_finding(ImportFinding::new_note_finding(
+        findings.push_note_finding(
             None,
             format!(
                 "each of its faces (face_id) is a track of its own: {}",
                 names.join(", ")
             ),
-        ));
+        );
     }
     faces
         .iter()
@@ -271,10 +268,10 @@ fn read_face_channels(table: &CurveTable, findings: &mut FindingTally) -> Result
             .count()
     });
     if failed > 0 {
-        findings.push_counted_finding(ImportFinding::new_warning_finding(
+        findings.push_warning_finding(
             None,
             format!("rows without a face (success is 0), whose numbers are kept and mean nothing: {failed}"),
-        ));
+        );
     }
     for (at, name) in channels.names.iter().enumerate() {
         if !channels.units[at].is_empty() {

@@ -48,10 +48,7 @@ fn read_classification_text(text: &str, findings: &mut FindingTally) -> Result<C
     }
     let usual = rate_of(DEFAULT_MEDIAPIPE_FPS).ok_or(CurveError::Empty)?;
     channels.clock = CurveClock::Rate(usual);
-    findings.push_counted_finding(ImportFinding::new_note_finding(
-        None,
-        "it holds the scores of one frame",
-    ));
+    findings.push_note_finding(None, "it holds the scores of one frame");
     match channels.names.is_empty() {
         true => Err(CurveError::Empty),
         false => Ok(channels),

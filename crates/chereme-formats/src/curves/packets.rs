@@ -12,7 +12,6 @@ use flate2::read::GzDecoder;
 
 use super::{CurveChannels, CurveClock, CurveError};
 use crate::faces::FaceSystem;
-use crate::finding::ImportFinding;
 use crate::tally::FindingTally;
 
 /// The version of file and packets that is known.
@@ -103,10 +102,10 @@ pub(super) fn read_packet_channels(bytes: &[u8], findings: &mut FindingTally) ->
         true => {
             let mut limited = GzDecoder::new(bytes).take(MAX_DECOMPRESSED_BYTES + 1);
             if limited.read_to_end(&mut unpacked).is_err() {
-                findings.push_counted_finding(ImportFinding::new_warning_finding(
+                findings.push_warning_finding(
                     None,
                     "its compressed bytes are damaged; what comes before the damage is read",
-                ));
+                );
             }
             if unpacked.len() as u64 > MAX_DECOMPRESSED_BYTES {
                 return Err(odd_packet_error("the file holds more than 512 MB".to_owned()));
@@ -124,10 +123,7 @@ pub(super) fn read_packet_channels(bytes: &[u8], findings: &mut FindingTally) ->
         let length = bytes.u32()? as usize;
         let number = seconds.len() + 1;
         let Ok(one) = bytes.take_packet_bytes(length) else {
-            findings.push_counted_finding(ImportFinding::new_warning_finding(
-                None,
-                format!("the file ends within packet {number} of {announced}"),
-            ));
+            findings.push_warning_finding(None, format!("the file ends within packet {number} of {announced}"));
             break;
         };
         let (time, values) = packet(one, number)?;
@@ -146,10 +142,10 @@ pub(super) fn read_packet_channels(bytes: &[u8], findings: &mut FindingTally) ->
             )));
         }
         if seconds.last().is_some_and(|last| *last >= time) {
-            findings.push_counted_finding(ImportFinding::new_warning_finding(
+            findings.push_warning_finding(
                 None,
                 format!("packet {number} is not later than the one before it; it was left out"),
-            ));
+            );
             continue;
         }
         for (column, value) in channels.columns.iter_mut().zip(values) {

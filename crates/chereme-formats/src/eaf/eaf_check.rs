@@ -167,19 +167,13 @@ fn collect_slot_ids<'d>(doc: &'d EafDocument<'_>, findings: &mut FindingTally) -
     let mut ids = EafIdTable::new(doc.time_order.len());
     for (number, slot) in (0u32..).zip(&doc.time_order) {
         if !ids.insert_eaf_id(&slot.id, number) {
-            findings.add_limited_finding("time slot ids given twice", || {
-                ImportFinding::new_warning_finding(
-                    doc.line_of_element(slot.at),
-                    format!("the time slot id {:?} is given twice; the first counts", slot.id),
-                )
+            findings.add_limited_warning("time slot ids given twice", doc.line_of_element(slot.at), || {
+                format!("the time slot id {:?} is given twice; the first counts", slot.id)
             });
         }
         if slot.value.is_some_and(|value| value < 0) {
-            findings.add_limited_finding("times before the start", || {
-                ImportFinding::new_note_finding(
-                    doc.line_of_element(slot.at),
-                    format!("the time slot {:?} lies before the start", slot.id),
-                )
+            findings.add_limited_note("times before the start", doc.line_of_element(slot.at), || {
+                format!("the time slot {:?} lies before the start", slot.id)
             });
         }
     }
@@ -218,22 +212,16 @@ fn resolve_tier_references(doc: &EafDocument<'_>, findings: &mut FindingTally) -
     let mut names = HashMap::new();
     for (at, tier) in doc.tiers.iter().enumerate() {
         if *names.entry(&*tier.id).or_insert(at) != at {
-            findings.add_limited_finding("tier names given twice", || {
-                ImportFinding::new_warning_finding(
-                    doc.line_of_element(tier.at),
-                    format!("the tier {:?} is there twice; this one gets a number", tier.id),
-                )
+            findings.add_limited_warning("tier names given twice", doc.line_of_element(tier.at), || {
+                format!("the tier {:?} is there twice; this one gets a number", tier.id)
             });
         }
     }
     let mut kinds = HashMap::new();
     for (at, kind) in doc.linguistic_types.iter().enumerate() {
         if *kinds.entry(&*kind.id).or_insert(at) != at {
-            findings.add_limited_finding("tier types given twice", || {
-                ImportFinding::new_warning_finding(
-                    doc.line_of_element(kind.at),
-                    format!("the tier type {:?} is there twice; the first counts", kind.id),
-                )
+            findings.add_limited_warning("tier types given twice", doc.line_of_element(kind.at), || {
+                format!("the tier type {:?} is there twice; the first counts", kind.id)
             });
         }
     }
@@ -330,13 +318,10 @@ fn stereotypes(doc: &EafDocument<'_>, resolved: &mut ResolvedReferences, finding
             .filter(|name| !name.is_empty());
         let stereotype = named.and_then(TierStereotype::from_elan_name);
         if let (Some(name), None) = (named, stereotype) {
-            findings.add_limited_finding("unknown stereotypes", || {
-                ImportFinding::new_warning_finding(
-                    doc.line_of_element(tier.at),
-                    format!(
-                        "the type of tier {:?} has the stereotype {name:?}, which is not one of ELAN's four",
-                        tier.id
-                    ),
+            findings.add_limited_warning("unknown stereotypes", doc.line_of_element(tier.at), || {
+                format!(
+                    "the type of tier {:?} has the stereotype {name:?}, which is not one of ELAN's four",
+                    tier.id
                 )
             });
         }

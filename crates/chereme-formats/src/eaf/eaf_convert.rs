@@ -161,8 +161,8 @@ impl SlotTimes {
             }
         };
         if of * per != 1 {
-            findings.add_limited_finding("times in frames", || {
-                ImportFinding::new_note_finding(None, format!("the times are in {units}; they become milliseconds"))
+            findings.add_limited_note("times in frames", None, || {
+                format!("the times are in {units}; they become milliseconds")
             });
         }
         let time = |value: i64| {
@@ -461,13 +461,10 @@ impl<'d> EafTierConverter<'d> {
                 });
             let inside = best.is_some_and(|(other, _)| other.has_span_inside(span));
             if !inside {
-                findings.add_limited_finding("annotations that lie outside those above them", || {
-                    ImportFinding::new_warning_finding(
-                        None,
-                        format!(
-                            "annotation {:?} does not lie within an annotation of the tier above",
-                            annotation.id
-                        ),
+                findings.add_limited_warning("annotations that lie outside those above them", None, || {
+                    format!(
+                        "annotation {:?} does not lie within an annotation of the tier above",
+                        annotation.id
                     )
                 });
             }
@@ -553,13 +550,10 @@ impl<'d> EafTierConverter<'d> {
         let mut seen = HashSet::new();
         for annotation in &self.tiers[at].annotations {
             if !seen.insert(annotation.parent) {
-                findings.add_limited_finding("second annotations where one is allowed", || {
-                    ImportFinding::new_warning_finding(
-                        None,
-                        format!(
-                            "annotation {:?} is not the only one below its parent, and its tier allows one",
-                            annotation.id
-                        ),
+                findings.add_limited_warning("second annotations where one is allowed", None, || {
+                    format!(
+                        "annotation {:?} is not the only one below its parent, and its tier allows one",
+                        annotation.id
                     )
                 });
             }

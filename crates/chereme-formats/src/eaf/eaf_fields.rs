@@ -129,11 +129,8 @@ impl<'a> DocumentReader<'a> {
             });
         }
         for (name, _) in kept.iter().flat_map(|kept| &kept.attributes) {
-            findings.add_limited_finding("attributes beyond the schema", || {
-                ImportFinding::new_note_finding(
-                    tag.start_tag_line(),
-                    format!("<{element}> has the attribute {name:.40?}, which EAF doesn't know; it was kept aside"),
-                )
+            findings.add_limited_note("attributes beyond the schema", tag.start_tag_line(), || {
+                format!("<{element}> has the attribute {name:.40?}, which EAF doesn't know; it was kept aside")
             });
         }
     }
@@ -161,11 +158,8 @@ impl<'a> DocumentReader<'a> {
         let (outer, name) = (parent.name, child.name);
         self.cursor
             .findings
-            .add_limited_finding("elements beyond the schema", || {
-                ImportFinding::new_note_finding(
-                    child.start_tag_line(),
-                    format!("<{name:.40}> in <{outer}> is not known to EAF; it was kept aside"),
-                )
+            .add_limited_note("elements beyond the schema", child.start_tag_line(), || {
+                format!("<{name:.40}> in <{outer}> is not known to EAF; it was kept aside")
             });
         Ok(())
     }
@@ -175,11 +169,8 @@ impl<'a> DocumentReader<'a> {
         let (outer, name) = (parent.name, child.name);
         self.cursor
             .findings
-            .add_limited_finding("elements that were left out", || {
-                ImportFinding::new_warning_finding(
-                    child.start_tag_line(),
-                    format!("<{name:.40}> in <{outer}> is not known to EAF; it was left out"),
-                )
+            .add_limited_warning("elements that were left out", child.start_tag_line(), || {
+                format!("<{name:.40}> in <{outer}> is not known to EAF; it was left out")
             });
         Ok(())
     }
@@ -189,11 +180,8 @@ impl<'a> DocumentReader<'a> {
             let element = tag.name;
             self.cursor
                 .findings
-                .add_limited_finding("attributes that were left out", || {
-                    ImportFinding::new_warning_finding(
-                        tag.start_tag_line(),
-                        format!("the attributes of <{element}> were left out"),
-                    )
+                .add_limited_warning("attributes that were left out", tag.start_tag_line(), || {
+                    format!("the attributes of <{element}> were left out")
                 });
         }
     }

@@ -230,14 +230,11 @@ impl<'a> DocumentReader<'a> {
             count += 1;
         }
         if count != 1 {
-            self.cursor
-                .findings
-                .add_limited_finding("ANNOTATION elements with none or several annotations", || {
-                    ImportFinding::new_warning_finding(
-                        tag.start_tag_line(),
-                        format!("this ANNOTATION holds {count} annotations instead of one"),
-                    )
-                });
+            self.cursor.findings.add_limited_warning(
+                "ANNOTATION elements with none or several annotations",
+                tag.start_tag_line(),
+                || format!("this ANNOTATION holds {count} annotations instead of one"),
+            );
         }
         Ok(())
     }

@@ -61,28 +61,26 @@ fn timeline_point_times(document: &ExmaraldaDocument<'_>, findings: &mut Finding
     for point in timeline {
         let time = match stated(point) {
             Some((None, text)) => {
-                findings.add_limited_finding("times that are no numbers", || {
-                    ImportFinding::new_warning_finding(
-                        document.exmaralda_line_at(point.at),
+                findings.add_limited_warning(
+                    "times that are no numbers",
+                    document.exmaralda_line_at(point.at),
+                    || {
                         format!(
                             "the time {text:?} of the point {:?} is no number of seconds; it was left out",
                             point.id
-                        ),
-                    )
-                });
+                        )
+                    },
+                );
                 None
             }
             Some((Some(time), _)) => Some(time),
             None => None,
         };
         if time.is_some_and(|time| time < last) {
-            findings.add_limited_finding("points out of order", || {
-                ImportFinding::new_warning_finding(
-                    document.exmaralda_line_at(point.at),
-                    format!(
-                        "the point {:?} of the timeline is earlier than the one before it",
-                        point.id
-                    ),
+            findings.add_limited_warning("points out of order", document.exmaralda_line_at(point.at), || {
+                format!(
+                    "the point {:?} of the timeline is earlier than the one before it",
+                    point.id
                 )
             });
         }
@@ -99,10 +97,10 @@ fn timeline_point_times(document: &ExmaraldaDocument<'_>, findings: &mut Finding
             .with_remedy("align the transcription with its film in the Partitur Editor, and import it again"),
         );
     } else if missing > 0 {
-        findings.push_counted_finding(ImportFinding::new_note_finding(
+        findings.push_note_finding(
             None,
             format!("points of the timeline without a time lie evenly between their neighbours: {missing}"),
-        ));
+        );
     }
     let mut all = Vec::with_capacity(point_times.len());
     let mut before: Option<i64> = None;
@@ -167,12 +165,7 @@ impl TranscriptionEvents<'_> {
         for event in &tier.events {
             let time = |id: &str| self.points.get(id).map(|at| self.times[*at]);
             let (Some(start), Some(end)) = (time(&event.start), time(&event.end)) else {
-                findings.add_limited_finding("events that were left out", || {
-                    ImportFinding::new_warning_finding(
-                        self.document.exmaralda_line_at(event.at),
-                        format!("the event {:?} of the tier {wanted:?} lies between points that the timeline does not have; it was left out", event.text),
-                    )
-                });
+                findings.add_limited_warning("events that were left out", self.document.exmaralda_line_at(event.at), || format!("the event {:?} of the tier {wanted:?} lies between points that the timeline does not have; it was left out", event.text));
                 continue;
             };
             let line = || self.document.exmaralda_line_at(event.at);

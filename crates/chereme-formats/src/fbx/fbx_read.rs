@@ -100,9 +100,7 @@ pub fn read_fbx(bytes: &[u8]) -> Result<(BodyScene, Vec<ImportFinding>), FbxErro
     }
     let mut findings = FindingTally::default();
     for warning in scene.metadata.warnings.iter() {
-        findings.add_limited_finding("warnings of the parser", || {
-            ImportFinding::new_note_finding(None, warning.description.to_string())
-        });
+        findings.add_limited_note("warnings of the parser", None, || warning.description.to_string());
     }
     let convention = fbx_convention(&scene, &mut findings);
     let stack = choose_fbx_take(&scene, &mut findings);
@@ -131,10 +129,7 @@ fn fbx_convention(scene: &ufbx::Scene, findings: &mut FindingTally) -> SpaceConv
     let metres_per_unit = if metres.is_finite() && metres > 0.0 {
         metres
     } else {
-        findings.push_counted_finding(ImportFinding::new_warning_finding(
-            None,
-            "it states no unit; centimetres are taken",
-        ));
+        findings.push_warning_finding(None, "it states no unit; centimetres are taken");
         0.01
     };
     let [right, up, front] = [settings.axes.right, settings.axes.up, settings.axes.front].map(direction_of_axis);
@@ -149,18 +144,12 @@ fn fbx_convention(scene: &ufbx::Scene, findings: &mut FindingTally) -> SpaceConv
             .is_none_or(|(right, up)| right.cross(up).dot(front.axis_direction_vector()) > 0.0)
     });
     if !handed {
-        findings.push_counted_finding(ImportFinding::new_warning_finding(
-            None,
-            "its axes are left-handed: left and right may be exchanged",
-        ));
+        findings.push_warning_finding(None, "its axes are left-handed: left and right may be exchanged");
     }
     SpaceConvention {
         metres_per_unit,
         axes: axes.unwrap_or_else(|| {
-            findings.push_counted_finding(ImportFinding::new_warning_finding(
-                None,
-                "it states no axes; Y is taken for up",
-            ));
+            findings.push_warning_finding(None, "it states no axes; Y is taken for up");
             SpaceConvention::MODEL_CONVENTION.axes
         }),
     }
@@ -208,10 +197,7 @@ fn read_still_scene(
     convention: SpaceConvention,
     findings: &mut FindingTally,
 ) -> Result<BodyScene, FbxError> {
-    findings.push_counted_finding(ImportFinding::new_warning_finding(
-        None,
-        "it has no animation; one frame at rest was made",
-    ));
+    findings.push_warning_finding(None, "it has no animation; one frame at rest was made");
     let skeleton = Skeleton::new(rig.joints).map_err(|error| FbxError::Skeleton(error.to_string()))?;
     let rate = rate_of(DEFAULT_FBX_FPS).ok_or(FbxError::NoSkeleton)?;
     Ok(BodyScene {
@@ -267,10 +253,10 @@ fn read_moving_scene(
     let mut joints = std::mem::take(&mut rig.joints);
     let wrong = settle_joint_offsets(&mut joints, &mut channels);
     if wrong > 0 {
-        findings.push_counted_finding(ImportFinding::new_note_finding(
+        findings.push_note_finding(
             None,
             format!("joints whose rest position contradicts the movement, which is used: {wrong}"),
-        ));
+        );
     }
     let fault = |error: String| FbxError::Skeleton(error);
     let skeleton = Skeleton::new(joints).map_err(|error| fault(error.to_string()))?;
@@ -305,13 +291,13 @@ fn fbx_frame_grid(
         .or_else(|| rate_of(DEFAULT_FBX_FPS))
         .ok_or(FbxError::NoSkeleton)?;
     if (rate.per_second() / stated - 1.0).abs() > 0.01 {
-        findings.push_counted_finding(ImportFinding::new_note_finding(
+        findings.push_note_finding(
             None,
             format!(
                 "its keys come {:.3} times a second, though it states {stated:.3}; the keys count",
                 rate.per_second()
             ),
-        ));
+        );
     }
     let fits = |(first, last): &(f64, f64)| {
         let frames = (last - first) * rate.per_second();
@@ -328,16 +314,10 @@ fn fbx_frame_grid(
             most: MOST_POSITIONS,
         })?;
     if (first, last) != stated {
-        findings.push_counted_finding(ImportFinding::new_warning_finding(
-            None,
-            "the range of its take is no time; that of its keys is taken",
-        ));
+        findings.push_warning_finding(None, "the range of its take is no time; that of its keys is taken");
     }
     if first.abs() > 1e-6 {
-        findings.push_counted_finding(ImportFinding::new_note_finding(
-            None,
-            format!("its take begins at {first:.3} s; that is 0 s here"),
-        ));
+        findings.push_note_finding(None, format!("its take begins at {first:.3} s; that is 0 s here"));
     }
     let frames = ((last - first) * rate.per_second() + 1e-6).floor() as usize + 1;
     Ok(FbxFrameGrid { rate, first, frames })

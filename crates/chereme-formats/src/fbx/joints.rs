@@ -6,7 +6,6 @@ use chereme_motion::SkeletonJoint;
 use chereme_motion::glam::{DQuat, DVec3};
 use ufbx::{Anim, ElementType, InheritMode, Node, Scene, Transform};
 
-use crate::finding::ImportFinding;
 use crate::tally::FindingTally;
 use crate::tracks::unique_track_names;
 
@@ -100,10 +99,7 @@ impl<'s> FbxRig<'s> {
             rig.nodes.push(None);
             rig.joints.push(SkeletonJoint::new("scene", None, DVec3::ZERO));
             rig.moves.push(false);
-            findings.push_counted_finding(ImportFinding::new_note_finding(
-                None,
-                format!("{} trees of joints were put below one root", roots.len()),
-            ));
+            findings.push_note_finding(None, format!("{} trees of joints were put below one root", roots.len()));
         }
         let top = (roots.len() > 1).then_some(0);
         let mut open: Vec<(&Node, Option<usize>)> = roots.into_iter().rev().map(|root| (root, top)).collect();
@@ -144,13 +140,10 @@ impl<'s> FbxRig<'s> {
                 .iter()
                 .all(|scale| (scale - mean).abs() <= SAME_SCALE * mean.max(1.0));
             if !even {
-                findings.add_limited_finding("scales that are not even", || {
-                    ImportFinding::new_warning_finding(
-                        None,
-                        format!(
-                            "the node {:?} is stretched or mirrored; its mean scale is taken",
-                            &*node.element.name
-                        ),
+                findings.add_limited_warning("scales that are not even", None, || {
+                    format!(
+                        "the node {:?} is stretched or mirrored; its mean scale is taken",
+                        &*node.element.name
                     )
                 });
             }

@@ -49,10 +49,10 @@ pub fn read_gltf(
         if extension == "EXT_meshopt_compression" {
             return Err(GltfError::Packed(extension.clone()));
         }
-        findings.push_counted_finding(ImportFinding::new_note_finding(
+        findings.push_note_finding(
             None,
             format!("it needs the extension {extension}; movement is read without it"),
-        ));
+        );
     }
     let rig = GltfRig::rig_from_document(&document, &mut findings)?;
     let scene = build_gltf_scene(&data, rig, &mut findings)?;
@@ -78,10 +78,7 @@ fn build_gltf_scene(data: &GltfData<'_>, rig: GltfRig, findings: &mut FindingTal
     let skeleton = Arc::new(skeleton);
     let still = FrameRate::new(STILL_RATE, 1).map_err(|error| GltfError::Skeleton(error.to_string()))?;
     let Some(animation) = document.animations.first() else {
-        findings.push_counted_finding(ImportFinding::new_warning_finding(
-            None,
-            "it has no animation; one frame at rest was made",
-        ));
+        findings.push_warning_finding(None, "it has no animation; one frame at rest was made");
         return Ok(BodyScene {
             clip: Clip::from_rest_pose(skeleton, still, 1),
             convention,
@@ -116,10 +113,10 @@ fn build_gltf_scene(data: &GltfData<'_>, rig: GltfRig, findings: &mut FindingTal
     let wide = weights.iter().map(|weight| weight.keys.width).sum::<usize>();
     let fits = |grid: &GltfFrameGrid| grid.frames.saturating_mul(rig.joints.len() + wide) <= most;
     let Some(grid) = grid.filter(fits) else {
-        findings.push_counted_finding(ImportFinding::new_warning_finding(
+        findings.push_warning_finding(
             None,
             "its key times make more frames than can be held; one frame at rest was made",
-        ));
+        );
         return Ok(BodyScene {
             clip: Clip::from_rest_pose(skeleton, still, 1),
             convention,
@@ -144,10 +141,10 @@ fn build_gltf_scene(data: &GltfData<'_>, rig: GltfRig, findings: &mut FindingTal
     let mut joints = rig.joints;
     let wrong = settle_joint_offsets(&mut joints, &mut channels);
     if wrong > 0 {
-        findings.push_counted_finding(ImportFinding::new_note_finding(
+        findings.push_note_finding(
             None,
             format!("joints whose rest position contradicts the movement, which is used: {wrong}"),
-        ));
+        );
     }
     let fault = |error: chereme_motion::SkeletonError| GltfError::Skeleton(error.to_string());
     let skeleton = Arc::new(Skeleton::new(joints).map_err(fault)?);
@@ -204,18 +201,15 @@ fn samplers(
                     .chunks(3)
                     .any(|scale| scale.iter().any(|scale| (f64::from(*scale) - 1.0).abs() > SAME_SCALE))
                 {
-                    findings.add_limited_finding("animated scales", || {
-                        ImportFinding::new_warning_finding(
-                            None,
-                            format!("channel {at} changes the scale of a node; that is not shown"),
-                        )
+                    findings.add_limited_warning("animated scales", None, || {
+                        format!("channel {at} changes the scale of a node; that is not shown")
                     });
                 }
                 continue;
             }
             other => {
-                findings.add_limited_finding("unknown channels", || {
-                    ImportFinding::new_note_finding(None, format!("channel {at} changes {other:?}; it was left out"))
+                findings.add_limited_note("unknown channels", None, || {
+                    format!("channel {at} changes {other:?}; it was left out")
                 });
                 continue;
             }
@@ -320,19 +314,16 @@ impl GltfFrameGrid {
         });
         let off = off.count();
         if off > 0 {
-            findings.push_counted_finding(ImportFinding::new_note_finding(
+            findings.push_note_finding(
                 None,
                 format!(
                     "{off} of its {} key times lie between frames of {guess:?}; movement is read at that rate",
                     times.len()
                 ),
-            ));
+            );
         }
         if first.abs() > 1e-6 {
-            findings.push_counted_finding(ImportFinding::new_note_finding(
-                None,
-                format!("its movement begins at {first:.3} s; that is 0 s here"),
-            ));
+            findings.push_note_finding(None, format!("its movement begins at {first:.3} s; that is 0 s here"));
         }
         Some(Self {
             rate: guess,

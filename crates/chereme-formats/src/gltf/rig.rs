@@ -8,7 +8,6 @@ use chereme_motion::glam::{DMat4, DQuat, DVec3};
 use super::error::GltfError;
 use super::gltf_model::{FaceNode, GltfDocument, GltfNode};
 use super::sample::unit_rotation_from;
-use crate::finding::ImportFinding;
 use crate::tally::FindingTally;
 use crate::tracks::unique_track_names;
 
@@ -87,10 +86,7 @@ impl GltfRig {
             rig.nodes.push(None);
             rig.joints.push(SkeletonJoint::new("scene", None, DVec3::ZERO));
             rig.scales.push(1.0);
-            findings.push_counted_finding(ImportFinding::new_note_finding(
-                None,
-                format!("{} trees of joints were put below one root", roots.len()),
-            ));
+            findings.push_note_finding(None, format!("{} trees of joints were put below one root", roots.len()));
         }
         let top = (roots.len() > 1).then_some(0);
         let mut open: Vec<(usize, Option<usize>, f64)> = roots.iter().rev().map(|root| (*root, top, 1.0)).collect();
@@ -179,11 +175,8 @@ fn uniform(scale: DVec3, at: usize, node: &GltfNode, findings: &mut FindingTally
     let even = (scale.abs() - DVec3::splat(mean)).abs().max_element() <= SAME_SCALE * mean.max(1.0);
     if !even || scale.min_element() < 0.0 || !mean.is_finite() {
         let name = original_node_name(node, at);
-        findings.add_limited_finding("scales that are not even", || {
-            ImportFinding::new_warning_finding(
-                None,
-                format!("the node {name:?} is stretched or mirrored; its mean scale is taken"),
-            )
+        findings.add_limited_warning("scales that are not even", None, || {
+            format!("the node {name:?} is stretched or mirrored; its mean scale is taken")
         });
     }
     let near_one = (mean - 1.0).abs() <= SAME_SCALE;

@@ -12,7 +12,6 @@ use serde_json::Value;
 
 use super::KeypointError;
 use super::keypoints_names;
-use crate::finding::ImportFinding;
 use crate::tally::FindingTally;
 
 /// The message for places that are shares of the picture.
@@ -327,26 +326,21 @@ impl PersonCloud {
                     }
                     false => PICTURE_SHARES_MESSAGE,
                 };
-                findings.add_limited_finding("shares of the picture", || ImportFinding::new_note_finding(None, text));
+                findings.add_limited_note("shares of the picture", None, || text);
                 MarkerSpace::Image(frame([1.0, 1.0]))
             }
             PointSpace::Pixels => MarkerSpace::Image(frame(size.unwrap_or_else(|| {
                 let largest_size = self.largest.map(f64::ceil);
-                findings.add_limited_finding("pictures of unknown size", || {
-                    ImportFinding::new_note_finding(
-                        None,
-                        format!(
-                            "the size of the pictures is not stated; points reach {} by {} pixels",
-                            largest_size[0], largest_size[1]
-                        ),
+                findings.add_limited_note("pictures of unknown size", None, || {
+                    format!(
+                        "the size of the pictures is not stated; points reach {} by {} pixels",
+                        largest_size[0], largest_size[1]
                     )
                 });
                 largest_size
             }))),
             PointSpace::Share => {
-                findings.add_limited_finding("shares of the picture", || {
-                    ImportFinding::new_note_finding(None, PICTURE_SHARES_MESSAGE)
-                });
+                findings.add_limited_note("shares of the picture", None, || PICTURE_SHARES_MESSAGE);
                 MarkerSpace::Depth(frame([1.0, 1.0]))
             }
         })

@@ -65,10 +65,10 @@ impl KeypointClock {
         let is_whole = millis.len() == rows && rows > 1;
         let rising = millis.values().is_sorted_by(|a, b| a < b);
         if known.is_none() && even_keypoint_rate(&millis).is_none() && is_whole && rising {
-            findings.push_counted_finding(ImportFinding::new_note_finding(
+            findings.push_note_finding(
                 None,
                 "the times of the frames are not even; every frame has its own time",
-            ));
+            );
             let first = millis.values().next().copied().unwrap_or_default();
             let seconds = millis.values().map(|at| (at - first) / 1000.0);
             let listed_times =
@@ -101,10 +101,10 @@ fn first_row_offset(millis: &BTreeMap<u64, f64>, findings: &mut FindingTally) ->
     if seconds.abs() < SECONDS_PER_DAY {
         return RecordingInstant::from_seconds(seconds);
     }
-    findings.push_counted_finding(ImportFinding::new_note_finding(
+    findings.push_note_finding(
         None,
         format!("its first frame has the time {seconds:.3} s; that is 0 s here"),
-    ));
+    );
     RecordingInstant::RECORDING_START
 }
 

@@ -203,10 +203,10 @@ impl KeypointReader {
         let rows = self.films.iter().map(CameraFilm::film_row_count).max().unwrap_or(0);
         let (times, offset) = self.clock.keypoint_frame_times(rows, rate, &mut self.findings)?;
         if let Some(first) = self.first.filter(|first| *first > 0) {
-            self.findings.push_counted_finding(ImportFinding::new_note_finding(
+            self.findings.push_note_finding(
                 None,
                 format!("it begins with frame {first} of its film; that is 0 s here"),
-            ));
+            );
         }
         let mut tracks = CapturedTracks::default();
         let several = self.films.len() > 1;
@@ -242,10 +242,8 @@ impl KeypointReader {
         if tracks.tracks.is_empty() {
             return Err(KeypointError::Empty);
         }
-        self.findings.push_counted_finding(ImportFinding::new_note_finding(
-            None,
-            "the points are estimated from film",
-        ));
+        self.findings
+            .push_note_finding(None, "the points are estimated from film");
         Ok((tracks, self.findings.finish_finding_tally()))
     }
 }
@@ -362,13 +360,8 @@ impl CameraFilm {
                 Some(nearest) => nearest,
                 None if self.people.len() == MAX_FOLLOWED_PEOPLE => {
                     let left = bodies.len();
-                    findings.add_limited_finding("people who are left out", || {
-                        ImportFinding::new_warning_finding(
-                            None,
-                            format!(
-                                "frame {row} shows {left} more people than the {MAX_FOLLOWED_PEOPLE} who are followed"
-                            ),
-                        )
+                    findings.add_limited_warning("people who are left out", None, || {
+                        format!("frame {row} shows {left} more people than the {MAX_FOLLOWED_PEOPLE} who are followed")
                     });
                     return Ok(());
                 }
@@ -380,12 +373,7 @@ impl CameraFilm {
             free.retain(|index| *index != known);
             let points = bodies.remove(body);
             if self.people[known].is_person_leap(&points) {
-                findings.add_limited_finding("people who jump", || {
-                    ImportFinding::new_warning_finding(
-                        None,
-                        format!("in row {row} a person is far from the last place of the person who is nearest, and may be another one"),
-                    )
-                });
+                findings.add_limited_warning("people who jump", None, || format!("in row {row} a person is far from the last place of the person who is nearest, and may be another one"));
             }
             self.people[known].push_cloud_points(row, points)?;
         }
@@ -454,11 +442,8 @@ fn openpose_points(person: &Map<String, Value>, findings: &mut FindingTally) -> 
             continue;
         };
         if group.ends_with("_3d") && !values.is_empty() {
-            findings.add_limited_finding("points in three dimensions", || {
-                ImportFinding::new_warning_finding(
-                    None,
-                    format!("the points {group:?} in three dimensions are left out: their unit is not stated"),
-                )
+            findings.add_limited_warning("points in three dimensions", None, || {
+                format!("the points {group:?} in three dimensions are left out: their unit is not stated")
             });
         }
         if group.ends_with("_keypoints_2d") || group.ends_with("_keypoints") {

@@ -290,8 +290,8 @@ pub(super) fn infer_column_meanings(
             "no word of its title is known".clone_into(&mut column.why);
         }
         if !seen.insert(title.clone()) {
-            findings.add_limited_finding("columns given twice", || {
-                ImportFinding::new_warning_finding(1, format!("the column {title:?} is there twice"))
+            findings.add_limited_warning("columns given twice", 1, || {
+                format!("the column {title:?} is there twice")
             });
         }
     }

@@ -218,11 +218,8 @@ fn interpret(
         let line = row.line;
         let filled = names.iter().find(|at| lexicon_columns::is_filled(&row, **at));
         let Some(at) = filled.copied() else {
-            findings.add_limited_finding("rows without a gloss", || {
-                ImportFinding::new_warning_finding(
-                    line,
-                    format!("the row has no {}; it was left out", columns[gloss].title),
-                )
+            findings.add_limited_warning("rows without a gloss", line, || {
+                format!("the row has no {}; it was left out", columns[gloss].title)
             });
             continue;
         };
@@ -258,7 +255,7 @@ fn interpret(
     for (at, (count, line)) in stand_ins {
         let (title, other) = (&columns[gloss].title, &columns[at].title);
         let message = format!("rows without {title:?} that {other:?} names: {count}");
-        findings.push_counted_finding(ImportFinding::new_note_finding(line, message));
+        findings.push_note_finding(line, message);
     }
     let lexicon = SignLexicon {
         columns,

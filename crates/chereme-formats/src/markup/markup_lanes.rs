@@ -1,6 +1,5 @@
 //! Annotations that overlap on one tier, which the tier rules forbid.
 
-use crate::finding::ImportFinding;
 use crate::tally::FindingTally;
 use chereme_motion::{RecordingInstant, TimeSpan};
 
@@ -35,19 +34,16 @@ impl TimedAnnotation {
         findings: &mut FindingTally,
     ) -> Self {
         if start == end {
-            findings.add_limited_finding("annotations without length", || {
-                ImportFinding::new_warning_finding(line(), format!("an annotation of the tier {tier:?} at {start} has no length; it lasts 40 ms, or until the next one"))
+            findings.add_limited_warning("annotations without length", line(), || {
+                format!(
+                    "an annotation of the tier {tier:?} at {start} has no length; it lasts 40 ms, or until the next one"
+                )
             });
             return Self::timed_at_point(start);
         }
         if end < start {
-            findings.add_limited_finding("annotations that end before they start", || {
-                ImportFinding::new_warning_finding(
-                    line(),
-                    format!(
-                        "an annotation of the tier {tier:?} at {start} ends before it starts; the ends were exchanged"
-                    ),
-                )
+            findings.add_limited_warning("annotations that end before they start", line(), || {
+                format!("an annotation of the tier {tier:?} at {start} ends before it starts; the ends were exchanged")
             });
         }
         Self {
@@ -105,24 +101,16 @@ pub(crate) fn report_split_lanes(
 ) {
     let others = of.iter().filter(|lane| **lane > 0).count();
     if others > 0 {
-        findings.add_limited_finding("tiers with annotations that overlap", || {
-            ImportFinding::new_warning_finding(
-                line(),
-                format!(
-                    "annotations of {tier:?} overlap others: {others} were put on tiers of their own, as {:?}",
-                    format!("{tier} (2)")
-                ),
+        findings.add_limited_warning("tiers with annotations that overlap", line(), || {
+            format!(
+                "annotations of {tier:?} overlap others: {others} were put on tiers of their own, as {:?}",
+                format!("{tier} (2)")
             )
         });
     }
     if crowded > 0 {
-        findings.add_limited_finding("crowded tiers", || {
-            ImportFinding::new_warning_finding(
-                line(),
-                format!(
-                    "more than {MAX_TIER_LANES} annotations of {tier:?} overlap at once: {crowded} of them still do"
-                ),
-            )
+        findings.add_limited_warning("crowded tiers", line(), || {
+            format!("more than {MAX_TIER_LANES} annotations of {tier:?} overlap at once: {crowded} of them still do")
         });
     }
 }

@@ -78,10 +78,10 @@ impl UnreadElements {
     /// Reports the elements.
     pub(crate) fn report_unread_elements(self, findings: &mut FindingTally) {
         for (name, many) in self.0 {
-            findings.push_counted_finding(ImportFinding::new_warning_finding(
+            findings.push_warning_finding(
                 None,
                 format!("elements <{name}> are not read and were left out: {many}"),
-            ));
+            );
         }
     }
 }

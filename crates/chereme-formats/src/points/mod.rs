@@ -206,7 +206,7 @@ fn read_point_tracks(
     let row_count = rows.lines.len();
     if let Some(stated) = layout.frames.filter(|stated| *stated != row_count) {
         let text = format!("the header states {stated} frames, and the file holds {row_count}");
-        findings.push_counted_finding(ImportFinding::new_warning_finding(layout.line, text));
+        findings.push_warning_finding(layout.line, text);
     }
     let (times, offset) = points_clock::infer_row_times(&rows, &layout, wanted, findings)?;
     let wide = layout.coordinates_per_point();
@@ -312,7 +312,7 @@ fn unique_point_names(layout: &PointTableLayout, findings: &mut FindingTally) ->
                 format!("the label {given:?} occurs again; it is {made:?} here"),
             ),
         };
-        findings.add_limited_finding(kind, || ImportFinding::new_note_finding(layout.line, text));
+        findings.add_limited_note(kind, layout.line, || text);
         let name = match made.strip_prefix(&format!("{}:", point.group)) {
             Some(name) if !point.group.is_empty() => name.to_owned(),
             _ => made,

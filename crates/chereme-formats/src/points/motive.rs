@@ -240,7 +240,7 @@ fn collect_motive_points(
             ),
             false => format!("its markers are where bodies expect them, not where cameras saw them: {expected}"),
         };
-        findings.push_counted_finding(ImportFinding::new_note_finding(header.line, text));
+        findings.push_note_finding(header.line, text);
     }
     if is_local && has(MotiveColumnKind::Bone) {
         let text =
@@ -261,7 +261,7 @@ fn collect_motive_points(
     }
     if let Some(count) = left_out.get("errors and qualities") {
         let text = format!("columns of errors and qualities of markers and bodies are left out: {count}");
-        findings.push_counted_finding(ImportFinding::new_note_finding(header.line, text));
+        findings.push_note_finding(header.line, text);
     }
     let kept_places = found_places.into_iter().filter(|(kind, ..)| !is_left(*kind));
     let whole_places = kept_places.filter_map(|(_, place, axes)| {

@@ -71,7 +71,7 @@ pub(super) fn infer_row_times(
         let thousandth: Vec<f64> = seconds.iter().map(|time| time / 1000.0).collect();
         if is_even(&thousandth, rate, TIME_GRID_SLACK[0], last_decimal / 1000.0) {
             let text = "the times are milliseconds, as the stated rate shows; they are read as such";
-            findings.push_counted_finding(ImportFinding::new_warning_finding(None, text));
+            findings.push_warning_finding(None, text);
             return Ok((
                 FrameTimes::Even(rate),
                 RecordingInstant::from_seconds(first * unit / 1000.0),
@@ -93,7 +93,7 @@ pub(super) fn infer_row_times(
     if let Some(rate) = even {
         if let Some(stated) = stated {
             let text = format!("the file states {stated}, and the times of the rows show {rate}, which is taken");
-            findings.push_counted_finding(ImportFinding::new_warning_finding(None, text));
+            findings.push_warning_finding(None, text);
         }
         return Ok((FrameTimes::Even(rate), offset));
     }
@@ -102,7 +102,7 @@ pub(super) fn infer_row_times(
         return Err(PointTableError::Backwards { line });
     }
     let text = "the times of the frames are not even; every frame has its own time";
-    findings.push_counted_finding(ImportFinding::new_note_finding(None, text));
+    findings.push_note_finding(None, text);
     let listed_times = FrameTimes::from_listed_seconds(FrameNumberColumn::from_double_floats(seconds));
     let times = listed_times.map_err(|error| PointTableError::Track(error.to_string()))?;
     Ok((times, offset))
@@ -117,7 +117,7 @@ fn by_number(
 ) -> Result<(FrameTimes, RecordingInstant), PointTableError> {
     if layout.time.is_some() && rows.lines.len() > 1 {
         let text = "some rows have no time; the numbers of the frames and the rate show it";
-        findings.push_counted_finding(ImportFinding::new_warning_finding(None, text));
+        findings.push_warning_finding(None, text);
     }
     let rate = match rate {
         Some(rate) => rate,
@@ -144,7 +144,7 @@ fn by_number(
             frames[0],
             offset.instant_seconds()
         );
-        findings.push_counted_finding(ImportFinding::new_note_finding(None, text));
+        findings.push_note_finding(None, text);
     }
     let even = frames.windows(2).all(|pair| pair[1] - pair[0] == 1.0);
     if even {
@@ -152,11 +152,11 @@ fn by_number(
     }
     if !frames.is_sorted_by(|a, b| a < b) {
         let text = "the numbers of the frames do not rise; the rows are taken one after the other";
-        findings.push_counted_finding(ImportFinding::new_warning_finding(None, text));
+        findings.push_warning_finding(None, text);
         return Ok((FrameTimes::Even(rate), offset));
     }
     let text = "frames are missing, as their numbers show; every frame has its own time";
-    findings.push_counted_finding(ImportFinding::new_note_finding(None, text));
+    findings.push_note_finding(None, text);
     let seconds = frames.iter().map(|frame| (frame - frames[0]) * rate.frame_time());
     let listed_times = FrameTimes::from_listed_seconds(FrameNumberColumn::from_double_floats(seconds.collect()));
     let times = listed_times.map_err(|error| PointTableError::Track(error.to_string()))?;
@@ -199,7 +199,7 @@ fn first_row_instant(seconds: f64, findings: &mut FindingTally) -> RecordingInst
         return RecordingInstant::from_seconds(seconds);
     }
     let text = format!("its first frame has the time {seconds:.3} s; that is 0 s here");
-    findings.push_counted_finding(ImportFinding::new_note_finding(None, text));
+    findings.push_note_finding(None, text);
     RecordingInstant::RECORDING_START
 }
 

@@ -115,10 +115,7 @@ impl PointTableRows {
         };
         let has_commas = has_commas(lines, layout);
         if has_commas {
-            findings.push_counted_finding(ImportFinding::new_note_finding(
-                layout.rows.0,
-                "the numbers have decimal commas",
-            ));
+            findings.push_note_finding(layout.rows.0, "the numbers have decimal commas");
         }
         let (first, end) = layout.rows;
         // Beside times or numbers of frames, a row without any number is a blank line.

@@ -35,7 +35,7 @@ pub(super) fn infer_point_space(
     }
     if layout.unit.is_none() && are_shares(layout, points, &places) {
         let text = "places are shares of the picture's width and height: angles between them need its proportions";
-        findings.push_counted_finding(ImportFinding::new_note_finding(None, text));
+        findings.push_note_finding(None, text);
         return MarkerSpace::Depth(PointPictureSize {
             width: 1.0,
             height: 1.0,
@@ -70,7 +70,7 @@ fn infer_picture_frame(places: &[Vec<DVec3>], findings: &mut FindingTally) -> Po
         }
         false => format!("the size of the pictures is not stated; points reach {width} by {height} pixels"),
     };
-    findings.push_counted_finding(ImportFinding::new_note_finding(None, text));
+    findings.push_note_finding(None, text);
     PointPictureSize { width, height }
 }
 

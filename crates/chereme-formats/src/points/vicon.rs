@@ -146,10 +146,7 @@ pub(super) fn read_vicon_layout(
         }
     }
     if unit.is_none() {
-        findings.push_counted_finding(ImportFinding::new_note_finding(
-            line,
-            "no row of units; millimetres are assumed",
-        ));
+        findings.push_note_finding(line, "no row of units; millimetres are assumed");
     }
     let points = collect_vicon_points(&names, &titles, findings, line);
     if points.is_empty() {
@@ -213,7 +210,7 @@ fn collect_vicon_points(names: &[&str], titles: &[&str], findings: &mut FindingT
     }
     if others > 0 {
         let text = format!("columns of trajectories that are no places, such as velocities, are left out: {others}");
-        findings.push_counted_finding(ImportFinding::new_note_finding(line, text));
+        findings.push_note_finding(line, text);
     }
     let whole_places = found_places.into_iter().filter_map(|(place, [x, y, z])| {
         let axes = vec![x?, y?, z?];

@@ -25,17 +25,15 @@ impl<'e, 'f> AttributeReader<'e, 'f> {
     /// Adds a note about the element.
     pub(super) fn add_element_note(&mut self, kind: &'static str, message: impl FnOnce(&str) -> String) {
         let element = self.element;
-        self.findings.add_limited_finding(kind, || {
-            ImportFinding::new_note_finding(element.line.0, message(&shorten_sigml_text(&element.name)))
-        });
+        self.findings
+            .add_limited_note(kind, element.line.0, || message(&shorten_sigml_text(&element.name)));
     }
 
     /// Adds a warning about the element.
     pub(super) fn add_element_warning(&mut self, kind: &'static str, message: impl FnOnce(&str) -> String) {
         let element = self.element;
-        self.findings.add_limited_finding(kind, || {
-            ImportFinding::new_warning_finding(element.line.0, message(&shorten_sigml_text(&element.name)))
-        });
+        self.findings
+            .add_limited_warning(kind, element.line.0, || message(&shorten_sigml_text(&element.name)));
     }
 
     /// Reports an oddity of the element that the caller can mend.

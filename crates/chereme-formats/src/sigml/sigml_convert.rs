@@ -41,9 +41,11 @@ pub fn interpret_sigml_document(root: &SigmlElement<'_>) -> Result<(Vec<SigmlSig
         node.report_unread_attributes();
         read_signs(root, &mut findings, &mut entries);
     } else if read_entry(root, &mut findings, &mut entries) {
-        findings.add_limited_finding("signs without a document", || {
-            ImportFinding::new_note_finding(root.line.0, "the root element is a sign; <sigml> is missing around it")
-        });
+        findings.add_limited_note(
+            "signs without a document",
+            root.line.0,
+            || "the root element is a sign; <sigml> is missing around it",
+        );
     } else if holds_signs(root) {
         findings.add_limited_finding("wrappers", || {
             let message = format!(
@@ -60,9 +62,11 @@ pub fn interpret_sigml_document(root: &SigmlElement<'_>) -> Result<(Vec<SigmlSig
         });
     }
     if entries.is_empty() {
-        findings.add_limited_finding("documents without signs", || {
-            ImportFinding::new_warning_finding(root.line.0, "there is no sign in the document")
-        });
+        findings.add_limited_warning(
+            "documents without signs",
+            root.line.0,
+            || "there is no sign in the document",
+        );
     }
     Ok((entries, findings.finish_finding_tally()))
 }

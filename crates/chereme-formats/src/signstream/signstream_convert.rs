@@ -158,15 +158,16 @@ impl<'d> SignstreamRows<'d> {
     }
 
     fn report_untimed_annotation(&self, utterance: &SignstreamUtterance<'_>, at: usize, findings: &mut FindingTally) {
-        findings.add_limited_finding("annotations without times", || {
-            ImportFinding::new_warning_finding(
-                self.document.signstream_line_at(at),
+        findings.add_limited_warning(
+            "annotations without times",
+            self.document.signstream_line_at(at),
+            || {
                 format!(
                     "an annotation of the utterance {:?} has no times in milliseconds; it was left out",
                     utterance.id
-                ),
-            )
-        });
+                )
+            },
+        );
     }
 
     /// Returns the text of an annotation, else the name of its value.
@@ -184,12 +185,11 @@ impl<'d> SignstreamRows<'d> {
         match field_entry.and_then(|(_, values)| values.get(id)) {
             Some(name) => name,
             None => {
-                findings.add_limited_finding("values that the coding scheme lacks", || {
-                    ImportFinding::new_warning_finding(
-                        self.document.signstream_line_at(item.at),
-                        format!("the coding scheme has no value {id:?} of the field {field:?}; the number is kept"),
-                    )
-                });
+                findings.add_limited_warning(
+                    "values that the coding scheme lacks",
+                    self.document.signstream_line_at(item.at),
+                    || format!("the coding scheme has no value {id:?} of the field {field:?}; the number is kept"),
+                );
                 id
             }
         }

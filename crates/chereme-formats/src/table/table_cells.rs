@@ -230,11 +230,8 @@ impl TableCells {
 fn fit_row_width(mut row: TableRow, width: usize, findings: &mut FindingTally) -> TableRow {
     let (line, found) = (row.line, row.cells.len());
     if found < width {
-        findings.add_limited_finding("short rows", || {
-            ImportFinding::new_note_finding(
-                line,
-                format!("the row has {found} cells and the first row {width}; the rest was taken as empty"),
-            )
+        findings.add_limited_note("short rows", line, || {
+            format!("the row has {found} cells and the first row {width}; the rest was taken as empty")
         });
         row.cells.resize(width, String::new());
     } else if row.cells[width..].iter().any(|cell| !cell.trim().is_empty()) {
@@ -266,9 +263,7 @@ pub(crate) fn decode_table_bytes<'b>(bytes: &'b [u8], findings: &mut FindingTall
     if let Some(unit) = read_unit {
         let units = bytes[2..].chunks_exact(2).map(|pair| unit([pair[0], pair[1]]));
         let text: String = char::decode_utf16(units).map(|c| c.unwrap_or('\u{fffd}')).collect();
-        findings.add_limited_finding("another encoding", || {
-            ImportFinding::new_note_finding(None, "the text is in UTF-16")
-        });
+        findings.add_limited_note("another encoding", None, || "the text is in UTF-16");
         return printable(text.into());
     }
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);

@@ -3,7 +3,6 @@
 use std::borrow::Cow;
 
 use super::table_cells::TableRow;
-use crate::finding::ImportFinding;
 use crate::tally::FindingTally;
 
 /// Returns the cells of every line between tabs, with the number of the line, counted from 1; lines of blanks are left
@@ -104,13 +103,8 @@ pub(super) fn split_table_rows(
             let end = match open {
                 Some((inside, close, end, marks)) => {
                     if marks == QuotationMarkOrigin::Doubtful {
-                        findings.add_limited_finding("cells in quotation marks", || {
-                            ImportFinding::new_note_finding(
-                                line,
-                                format!(
-                                    "the quotation marks around {inside:?} were left out: a spreadsheet writes them"
-                                ),
-                            )
+                        findings.add_limited_note("cells in quotation marks", line, || {
+                            format!("the quotation marks around {inside:?} were left out: a spreadsheet writes them")
                         });
                     }
                     line += memchr::memchr_iter(b'\n', inside.as_bytes()).count() as u64;
@@ -124,12 +118,7 @@ pub(super) fn split_table_rows(
                     let end = length.map_or(bytes.len(), |length| at + length);
                     let cell = &text[at..end];
                     if cell.starts_with('"') && (cell.len() == 1 || !cell.ends_with('"')) {
-                        findings.add_limited_finding("open quotation marks", || {
-                            ImportFinding::new_note_finding(
-                                line,
-                                format!("the quotation mark before {:?} closes nowhere at the end of a cell; it was taken as text", text_beginning(&cell[1..])),
-                            )
-                        });
+                        findings.add_limited_note("open quotation marks", line, || format!("the quotation mark before {:?} closes nowhere at the end of a cell; it was taken as text", text_beginning(&cell[1..])));
                     }
                     row.cells.push(cell.to_owned());
                     end

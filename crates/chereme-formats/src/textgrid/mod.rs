@@ -62,10 +62,10 @@ fn grid_to_transcript(grid: &RawTextGrid, findings: &mut FindingTally) -> Annota
         });
     }
     if empty > 0 {
-        findings.push_counted_finding(ImportFinding::new_note_finding(
+        findings.push_note_finding(
             None,
             format!("{empty} empty intervals were left out; they are gaps now"),
-        ));
+        );
     }
     transcript
 }
@@ -84,11 +84,8 @@ fn unique_tier_name(name: &str, at: usize, names: &mut BTreeSet<String>, finding
         unique = format!("{wanted} ({count})");
     }
     if unique != name {
-        findings.add_limited_finding("renamed tiers", || {
-            ImportFinding::new_note_finding(
-                None,
-                format!("tier {} is called {name:?}; here it is {unique:?}", at + 1),
-            )
+        findings.add_limited_note("renamed tiers", None, || {
+            format!("tier {} is called {name:?}; here it is {unique:?}", at + 1)
         });
     }
     unique
@@ -137,13 +134,10 @@ fn read_grid_annotations(
         if before.span_end_instant() > start {
             items[at - 1].0 = TimeSpan::span_between(before.span_start_instant().min(start), start);
             if !tier.is_points {
-                findings.add_limited_finding("overlapping intervals", || {
-                    ImportFinding::new_warning_finding(
-                        item.line,
-                        format!(
-                            "{:?} on {name:?} ends after the next interval begins; it ends at {start} now",
-                            item.text
-                        ),
+                findings.add_limited_warning("overlapping intervals", item.line, || {
+                    format!(
+                        "{:?} on {name:?} ends after the next interval begins; it ends at {start} now",
+                        item.text
                     )
                 });
             }
@@ -189,19 +183,19 @@ pub fn write_textgrid(
         .map(|tier| grid_tier(tier, first, last, &mut empty, &mut findings))
         .collect();
     if empty > 0 {
-        findings.push_counted_finding(ImportFinding::new_warning_finding(
+        findings.push_warning_finding(
             None,
             format!(
                 "annotations without text are not in the TextGrid, where an empty interval is a gap; \
                  an .eaf keeps them: {empty}"
             ),
-        ));
+        );
     }
     if transcript.tiers.iter().any(|tier| tier.parent.is_some()) {
-        findings.push_counted_finding(ImportFinding::new_note_finding(
+        findings.push_note_finding(
             None,
             "a TextGrid has no hierarchy; tiers below others stand next to them",
-        ));
+        );
     }
     let grid = RawTextGrid {
         start: first.instant_seconds(),
@@ -239,29 +233,23 @@ fn grid_tier(
             continue;
         }
         if end <= start {
-            findings.add_limited_finding("annotations without room", || {
-                ImportFinding::new_warning_finding(
-                    None,
-                    format!(
-                        "{:?} at {} on {:?} overlaps others; a TextGrid has no room for it",
-                        annotation.value,
-                        annotation.span.span_start_instant(),
-                        tier.name
-                    ),
+            findings.add_limited_warning("annotations without room", None, || {
+                format!(
+                    "{:?} at {} on {:?} overlaps others; a TextGrid has no room for it",
+                    annotation.value,
+                    annotation.span.span_start_instant(),
+                    tier.name
                 )
             });
             continue;
         }
         if start > annotation.span.span_start_instant() {
-            findings.add_limited_finding("annotations that overlap others and start later", || {
-                ImportFinding::new_warning_finding(
-                    None,
-                    format!(
-                        "{:?} at {} on {:?} overlaps others; in the TextGrid it starts at {start}",
-                        annotation.value,
-                        annotation.span.span_start_instant(),
-                        tier.name
-                    ),
+            findings.add_limited_warning("annotations that overlap others and start later", None, || {
+                format!(
+                    "{:?} at {} on {:?} overlaps others; in the TextGrid it starts at {start}",
+                    annotation.value,
+                    annotation.span.span_start_instant(),
+                    tier.name
                 )
             });
         }

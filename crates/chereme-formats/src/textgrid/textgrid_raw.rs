@@ -5,7 +5,6 @@
 
 use std::borrow::Cow;
 
-use crate::finding::ImportFinding;
 use crate::table::{TableError, decode_table_bytes};
 use crate::tally::FindingTally;
 
@@ -272,9 +271,11 @@ fn parse_raw_grid(values: &mut GridValues<'_>, findings: &mut FindingTally) -> R
     }
     if values.next().is_some() {
         let line = values.line;
-        findings.add_limited_finding("values after the end", || {
-            ImportFinding::new_warning_finding(line, "values follow after the last tier; they were left out")
-        });
+        findings.add_limited_warning(
+            "values after the end",
+            line,
+            || "values follow after the last tier; they were left out",
+        );
     }
     Ok(grid)
 }

@@ -1,6 +1,5 @@
 //! The line of labels of a TRC file.
 
-use crate::finding::ImportFinding;
 use crate::tally::FindingTally;
 use crate::tracks::unique_track_names;
 
@@ -71,7 +70,7 @@ impl TrcLabels {
                     format!("the label {name:?} occurs again; it is {unique:?} here"),
                 ),
             };
-            findings.add_limited_finding(kind, || ImportFinding::new_note_finding(4, text));
+            findings.add_limited_note(kind, 4, || text);
         }
         Self { names, has_times }
     }

@@ -4,7 +4,6 @@ use chereme_motion::column::{FileNumber, FrameNumberColumn};
 use chereme_motion::{FrameRate, FrameTimes, RecordingInstant};
 
 use super::{TrcError, TrcRows};
-use crate::finding::ImportFinding;
 use crate::scene::near_usual;
 use crate::tally::FindingTally;
 use crate::tracks::rate_of;
@@ -24,7 +23,7 @@ pub(super) fn read_trc_times(
         (None, Some(rate)) => {
             let stated = stated.unwrap_or_default();
             let text = format!("DataRate is {stated:?}; the times of the rows show {rate}");
-            findings.push_counted_finding(ImportFinding::new_warning_finding(3, text));
+            findings.push_warning_finding(3, text);
             rate
         }
         (None, None) => {
@@ -50,16 +49,13 @@ pub(super) fn read_trc_times(
     }
     if even(0.001) {
         let text = "the times are milliseconds, as DataRate shows; they are read as such";
-        findings.push_counted_finding(ImportFinding::new_warning_finding(None, text));
+        findings.push_warning_finding(None, text);
         return Ok((
             FrameTimes::Even(rate),
             RecordingInstant::from_seconds(seconds[0] / 1000.0),
         ));
     }
-    findings.push_counted_finding(ImportFinding::new_note_finding(
-        None,
-        "the times do not follow DataRate; every frame has its own time",
-    ));
+    findings.push_note_finding(None, "the times do not follow DataRate; every frame has its own time");
     let shifted: Vec<f64> = seconds.iter().map(|time| time - seconds[0]).collect();
     let column = if seconds[0] == 0.0 {
         FrameNumberColumn::from_decimals(rows.times.iter().cloned())
@@ -75,16 +71,13 @@ fn by_number(rows: &TrcRows, rate: FrameRate, findings: &mut FindingTally) -> Re
     let frames = complete_trc_numbers(&rows.frames).filter(|all| all.is_sorted_by(|a, b| a < b));
     let uneven = |all: &Vec<f64>| all.windows(2).any(|pair| pair[1] - pair[0] != 1.0);
     let Some(frames) = frames.filter(uneven) else {
-        findings.push_counted_finding(ImportFinding::new_warning_finding(
-            None,
-            "some rows have no time; frames are taken to be even",
-        ));
+        findings.push_warning_finding(None, "some rows have no time; frames are taken to be even");
         return Ok(FrameTimes::Even(rate));
     };
-    findings.push_counted_finding(ImportFinding::new_warning_finding(
+    findings.push_warning_finding(
         None,
         "some rows have no time; the numbers of the frames and DataRate show it",
-    ));
+    );
     let seconds = frames.iter().map(|frame| (frame - frames[0]) * rate.frame_time());
     FrameTimes::from_listed_seconds(FrameNumberColumn::from_double_floats(seconds.collect()))
         .map_err(|error| TrcError::Track(error.to_string()))

@@ -369,9 +369,11 @@ fn read_target_motion(element: &SigmlElement<'_>, findings: &mut FindingTally) -
     }
     let posture = posture.finish_posture();
     if posture.is_empty() {
-        findings.add_limited_finding("targets without a posture", || {
-            ImportFinding::new_note_finding(element.line.0, "<tgt_motion> says no posture that it ends in")
-        });
+        findings.add_limited_note(
+            "targets without a posture",
+            element.line.0,
+            || "<tgt_motion> says no posture that it ends in",
+        );
     }
     MotionKind::Target {
         motion: read_single_motion(element, motions, findings).map(Box::new),

@@ -77,11 +77,8 @@ impl ChangeTableColumns {
                 }
             };
             if twice {
-                findings.add_limited_finding("columns given twice", || {
-                    ImportFinding::new_warning_finding(
-                        1,
-                        format!("the column {title:?} is there twice; the first counts"),
-                    )
+                findings.add_limited_warning("columns given twice", 1, || {
+                    format!("the column {title:?} is there twice; the first counts")
                 });
             }
         }

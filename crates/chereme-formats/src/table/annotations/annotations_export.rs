@@ -64,9 +64,11 @@ pub fn read_elan_table(bytes: &[u8]) -> Result<(AnnotationTranscript, Vec<Import
     for row in table.rows {
         let (Some(name), Some(TableMoment::Time(start)), Some(TableMoment::Time(end))) = (row.tier, row.start, row.end)
         else {
-            findings.add_limited_finding("rows without a time", || {
-                ImportFinding::new_warning_finding(row.line, "a row was left out: it has no tier, or no time")
-            });
+            findings.add_limited_warning(
+                "rows without a time",
+                row.line,
+                || "a row was left out: it has no tier, or no time",
+            );
             continue;
         };
         let present_tier = transcript.tiers.iter().position(|tier| tier.name == name);
@@ -195,10 +197,10 @@ fn separate_annotations(tier: &mut TranscriptTier, findings: &mut FindingTally) 
     tier.annotations.retain(|annotation| !annotation.span.is_empty());
     let left = all - tier.annotations.len();
     if left > 0 {
-        findings.push_counted_finding(ImportFinding::new_warning_finding(
+        findings.push_warning_finding(
             None,
             format!("{left} annotations begin together with the next one and were left out"),
-        ));
+        );
     }
 }
 

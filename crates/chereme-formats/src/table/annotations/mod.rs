@@ -111,12 +111,11 @@ pub fn read_change_table(
             let cells = std::mem::take(&mut table.header);
             let line = table.header_line;
             table.rows.insert(0, RawRow { line, cells });
-            findings.add_limited_finding("no titles", || {
-                ImportFinding::new_note_finding(
-                    line,
-                    "the table has no titles; it was read as ELAN exports it: tier, begin, end, annotation",
-                )
-            });
+            findings.add_limited_note(
+                "no titles",
+                line,
+                || "the table has no titles; it was read as ELAN exports it: tier, begin, end, annotation",
+            );
             columns
         }
         None => ChangeTableColumns::of_titles(&table.header, &mut findings),
