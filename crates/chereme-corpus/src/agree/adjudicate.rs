@@ -7,9 +7,10 @@ use chereme_formats::table::annotations::TableMoment;
 use chereme_motion::RecordingInstant;
 use serde::Serialize;
 
+use super::AgreeOptions;
 use super::agree_figures::annotator_units;
+use super::agree_tiers::{self, TierPair};
 use super::disagreements::{ValueDistances, aligned_unit_groups};
-use super::{AgreeOptions, agree_tiers};
 use crate::Corpus;
 use crate::address::RowName;
 use crate::annotate::{
@@ -19,6 +20,7 @@ use crate::db::edits;
 use crate::db::people::ADJUDICATION_ANNOTATOR;
 use crate::db::stored_tiers::{self as rows, AnnotationRow};
 use crate::error::{CorpusError, CorpusResult};
+use crate::inventories::StoredInventory;
 use crate::merge::keep_annotation;
 use crate::progress::ProgressReceiver;
 use crate::words::effect::OperationEffect;
@@ -115,98 +117,117 @@ impl Corpus {
         };
         let mut all: Vec<AdjudicatedRecording> = Vec::new();
         for pair in &coded.pairs {
-            if pair.a.recording_id != pair.b.recording_id {
-                return Err(
-                    CorpusError::from_wrong_message("the two tiers belong to different recordings")
-                        .with_error_place(format!("tier:{}", pair.b.id))
-                        .with_advice("copy one of them to the recording of the other, then adjudicate"),
-                );
-            }
-            if all.iter().any(|other| other.recording == pair.recording.id) {
-                return Err(CorpusError::from_wrong_message(format!(
-                    "several pairs of tiers of {:?} would go onto the tier {into:?}",
-                    pair.recording.name
-                ))
-                .with_error_place(pair.recording.name.as_str())
-                .with_advice("name one pair of tiers"));
-            }
-            let is_instant = |row: &&AnnotationRow| row.start_us >= row.end_us;
-            for (tier, rows) in [&pair.a, &pair.b].into_iter().zip(&pair.annotations) {
-                if let Some(row) = rows.iter().find(is_instant) {
-                    let message = format!(
-                        "the annotation {:?} at {:.3} s has no length, so it cannot go onto a third tier",
-                        row.value,
-                        row.start_us as f64 * 1e-6
-                    );
-                    return Err(CorpusError::from_wrong_message(message)
-                        .with_error_place(format!("{}, {}", pair.recording.name, tier.name))
-                        .with_advice("give it an end after its start, or delete it, then adjudicate"));
-                }
-            }
-            let recording = RowName::Number(pair.recording.id);
-            let mut tier = NewTier::new(recording.clone(), into, pair.a.role.clone());
-            tier.hand = pair.a.hand;
-            // An inventory that lacks a value of either annotator would refuse the annotation.
-            tier.values = TierValueSource::Free;
-            let stored = inventories
-                .iter()
-                .find(|candidate| Some(candidate.id) == pair.a.inventory_id);
-            let has = |row: &AnnotationRow| {
-                !row.is_filled()
-                    || stored.is_some_and(|inventory| inventory.inventory.find_inventory_value(&row.value).is_some())
-            };
-            if let Some(stored) = stored.filter(|_| pair.annotations.iter().flatten().all(has)) {
-                tier.values = TierValueSource::Inventory(stored.inventory.id.clone());
-            }
-            tier.participant.clone_from(&pair.a.participant);
-            tier.annotator = Some(ADJUDICATION_ANNOTATOR.to_owned());
-            tier.language.clone_from(&pair.a.language);
+            check_adjudicated_pair(pair, &all, into)?;
             let mut third = AdjudicatedRecording {
                 recording: pair.recording.id,
                 name: pair.recording.name.clone(),
-                tier,
+                tier: third_tier(pair, into, &inventories),
                 changes: Vec::new(),
                 open: Vec::new(),
                 from: pair.b.name.clone(),
             };
-            let name = TierRequestName::Of {
-                recording,
-                tier: into.to_owned(),
-            };
-            let (first, second) = annotator_units(&pair.continuum);
             for group in aligned_unit_groups(pair, &costs).0 {
-                let [a, b] = [group.first().copied().flatten(), group.get(1).copied().flatten()];
-                let mine = a.map(|at| &pair.annotations[0][at]);
-                let theirs = b.map(|at| &pair.annotations[1][at]);
-                if let Some(row) = mine {
-                    third.changes.push(added_annotation_change(name.clone(), row));
+                let units = [group.first().copied().flatten(), group.get(1).copied().flatten()];
+                match third.add_aligned_units(pair, units, options.tolerance_us) {
+                    true => report.agreed += 1,
+                    false => report.conflicts += 1,
                 }
-                let moved = match (mine, theirs) {
-                    (Some(mine), Some(theirs)) => annotation_boundary_gap(mine, theirs) > options.tolerance_us,
-                    _ => true,
-                };
-                let is_equal = match (a, b) {
-                    (Some(a), Some(b)) => first[a].value == second[b].value,
-                    _ => false,
-                };
-                if is_equal && !moved {
-                    report.agreed += 1;
-                    continue;
-                }
-                report.conflicts += 1;
-                let span = |row: &AnnotationRow| match mine {
-                    Some(mine) if !moved => (mine.start_us, mine.end_us),
-                    _ => clip_second_annotation(row, &pair.annotations[0], a, options.tolerance_us),
-                };
-                let theirs = theirs.map(|row| {
-                    let (start_us, end_us) = span(row);
-                    disagreement_candidate(row, start_us, end_us)
-                });
-                third.open.push((mine.map(|annotation| annotation.start_us), theirs));
             }
             all.push(third);
         }
         Ok((all, report))
+    }
+}
+
+/// Fails if the annotations of a pair of tiers cannot go onto a third one.
+fn check_adjudicated_pair(pair: &TierPair, others: &[AdjudicatedRecording], into: &str) -> CorpusResult<()> {
+    if pair.a.recording_id != pair.b.recording_id {
+        return Err(
+            CorpusError::from_wrong_message("the two tiers belong to different recordings")
+                .with_error_place(format!("tier:{}", pair.b.id))
+                .with_advice("copy one of them to the recording of the other, then adjudicate"),
+        );
+    }
+    if others.iter().any(|other| other.recording == pair.recording.id) {
+        return Err(CorpusError::from_wrong_message(format!(
+            "several pairs of tiers of {:?} would go onto the tier {into:?}",
+            pair.recording.name
+        ))
+        .with_error_place(pair.recording.name.as_str())
+        .with_advice("name one pair of tiers"));
+    }
+    for (tier, rows) in [&pair.a, &pair.b].into_iter().zip(&pair.annotations) {
+        if let Some(row) = rows.iter().find(|row| row.start_us >= row.end_us) {
+            let message = format!(
+                "the annotation {:?} at {:.3} s has no length, so it cannot go onto a third tier",
+                row.value,
+                row.start_us as f64 * 1e-6
+            );
+            return Err(CorpusError::from_wrong_message(message)
+                .with_error_place(format!("{}, {}", pair.recording.name, tier.name))
+                .with_advice("give it an end after its start, or delete it, then adjudicate"));
+        }
+    }
+    Ok(())
+}
+
+/// Returns the third tier of a pair, with the properties of the first.
+fn third_tier(pair: &TierPair, into: &str, inventories: &[StoredInventory]) -> NewTier {
+    let stored = inventories
+        .iter()
+        .find(|candidate| Some(candidate.id) == pair.a.inventory_id);
+    let has = |row: &AnnotationRow, stored: &StoredInventory| {
+        !row.is_filled() || stored.inventory.find_inventory_value(&row.value).is_some()
+    };
+    // An inventory that lacks a value of either annotator would refuse the annotation.
+    let complete = stored.filter(|stored| pair.annotations.iter().flatten().all(|row| has(row, stored)));
+    NewTier {
+        hand: pair.a.hand,
+        values: complete.map_or(TierValueSource::Free, |stored| {
+            TierValueSource::Inventory(stored.inventory.id.clone())
+        }),
+        participant: pair.a.participant.clone(),
+        annotator: Some(ADJUDICATION_ANNOTATOR.to_owned()),
+        language: pair.a.language.clone(),
+        ..NewTier::new(RowName::Number(pair.recording.id), into, pair.a.role.clone())
+    }
+}
+
+impl AdjudicatedRecording {
+    /// Adds aligned units of both annotators, by their index; returns whether they agree. The first annotator's version
+    /// goes onto the tier in either case.
+    fn add_aligned_units(&mut self, pair: &TierPair, [a, b]: [Option<usize>; 2], tolerance: i64) -> bool {
+        let mine = a.map(|at| &pair.annotations[0][at]);
+        let theirs = b.map(|at| &pair.annotations[1][at]);
+        if let Some(row) = mine {
+            let name = TierRequestName::Of {
+                recording: RowName::Number(self.recording),
+                tier: self.tier.name.clone(),
+            };
+            self.changes.push(added_annotation_change(name, row));
+        }
+        let moved = match (mine, theirs) {
+            (Some(mine), Some(theirs)) => annotation_boundary_gap(mine, theirs) > tolerance,
+            _ => true,
+        };
+        let (first, second) = annotator_units(&pair.continuum);
+        let is_equal = match (a, b) {
+            (Some(a), Some(b)) => first[a].value == second[b].value,
+            _ => false,
+        };
+        if is_equal && !moved {
+            return true;
+        }
+        let span = |row: &AnnotationRow| match mine {
+            Some(mine) if !moved => (mine.start_us, mine.end_us),
+            _ => clip_second_annotation(row, &pair.annotations[0], a, tolerance),
+        };
+        let theirs = theirs.map(|row| {
+            let (start_us, end_us) = span(row);
+            disagreement_candidate(row, start_us, end_us)
+        });
+        self.open.push((mine.map(|annotation| annotation.start_us), theirs));
+        false
     }
 }
 

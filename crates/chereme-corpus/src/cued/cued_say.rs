@@ -8,7 +8,7 @@ use chereme_compose::{CuePhases, CueTier, PhaseRule};
 use chereme_motion::column::FrameNumberColumn;
 use chereme_motion::glam::DVec3;
 use chereme_motion::markers::MotionMarker;
-use chereme_motion::{CaptureMethod, FrameRate, FrameTimes, MarkerSpace, MarkerTrack, SpaceConvention};
+use chereme_motion::{CaptureMethod, FrameRate, FrameTimes, MarkerSpace, MarkerTrack, SpaceConvention, TimeSpan};
 use chereme_sign::ErrorRemedy;
 use chereme_sign::TierRole;
 use chereme_sign::cue::{self, CuedUtterance, UtteranceError};
@@ -342,7 +342,7 @@ impl SentenceMovement {
                 instead: piece.instead.map(|(from, to)| pair_name(from, to)),
                 duration_cost: round_to_decimals(piece.duration_cost, 4),
                 join_cost: round_to_decimals(piece.join_cost, 4),
-                at_us: (time * 1e6).round() as i64,
+                at_us: seconds_to_micros(time),
                 read: None,
             };
             // The last piece leads to rest, which is no key to be read.
@@ -373,7 +373,7 @@ impl SentenceMovement {
         FromDictionary {
             text: text.to_owned(),
             keys: keys as u64,
-            duration_us: (self.hand.len() as f64 / book.rate * 1e6).round() as i64,
+            duration_us: seconds_to_micros(self.hand.len() as f64 / book.rate),
             exact: self.pieces.len() as u64 - synthetic - backed_off,
             backed_off,
             synthetic,
@@ -410,7 +410,7 @@ fn store_sentence_movement(
             .with_advice(ErrorRemedy::command_remedy("write --as GLOSS")));
     }
     let name = stored_recordings::free_recording_name(connection, gloss)?;
-    let end = (made.hand.len() as f64 / book.rate * 1e6).round() as i64;
+    let end = seconds_to_micros(made.hand.len() as f64 / book.rate);
     let recording = stored_recordings::insert_recording(
         connection,
         &RecordingRow {
@@ -432,75 +432,16 @@ fn store_sentence_movement(
         recording,
         &NewTrack::new("markers", TrackContent::Markers(build_sentence_markers(made, book)?)),
     )?;
-    let micros = |seconds: f64| (seconds * 1e6).round() as i64;
-    let lead = micros(made.lead);
-    let row = |from: i64, to: i64, value: String| -> ScoredSpan { (from, to, value, 0.0) };
-    let phones: Vec<ScoredSpan> = read
-        .phones
-        .iter()
-        .filter_map(|phone| {
-            let (span, symbols) = (phone.span?, read.code.sampa_symbols(&phone.label, read.alphabet)?);
-            let sounds = symbols.iter().any(|symbol| !read.code.is_pause(symbol));
-            sounds.then(|| {
-                row(
-                    span.span_start_instant().instant_micros() + lead,
-                    span.span_end_instant().instant_micros() + lead,
-                    symbols.join(" "),
-                )
-            })
-        })
-        .collect();
-    let keys: Vec<ScoredSpan> = read
-        .keys
-        .iter()
-        .filter_map(|key| {
-            let span = key.span?;
-            let value = cue::gloss_cue_key(&key.placement, key.shape);
-            Some(row(
-                span.span_start_instant().instant_micros() + lead,
-                span.span_end_instant().instant_micros() + lead,
-                value,
-            ))
-        })
-        .collect();
-    let mut before = REST_DIKEY_END;
-    let (mut hand, mut fingers) = (Vec::new(), Vec::new());
-    for ((key, _), times) in made.wanted.iter().skip(1).zip(&made.times) {
-        hand.push(row(
-            micros(times.m1),
-            micros(times.m2),
-            format!("{}>{}", dikey_end_name(before), dikey_end_name(*key)),
-        ));
-        fingers.push(row(
-            micros(times.d1),
-            micros(times.d2),
-            format!("{}>{}", before.shape, key.shape),
-        ));
-        before = *key;
-    }
-    let dikeys: Vec<ScoredSpan> = made
-        .pieces
-        .iter()
-        .enumerate()
-        .map(|(n, piece)| {
-            let stands = piece
-                .instead
-                .map_or_else(String::new, |(from, to)| format!(" by {}", pair_name(from, to)));
-            let (from, to) = piece.wanted;
-            let value = format!("{}{stands} from {}", pair_name(from, to), piece.source);
-            // A piece reaches from the target of the key before to its own.
-            row(micros(made.wanted[n].1), micros(made.wanted[n + 1].1), value)
-        })
-        .collect();
-    let text_rows = vec![row(0, end, text.to_owned())];
+    let whole = |text: &str| vec![(0, end, text.to_owned(), 0.0)];
+    let [hand, fingers] = made.movement_spans();
     let all = [
-        ("Gloss", TierRole::Gloss, vec![row(0, end, gloss.to_owned())]),
-        ("Text", TierRole::Translation, text_rows),
-        (CueTier::Phones.cue_tier_name(), TierRole::Free, phones),
-        (CueTier::Keys.cue_tier_name(), TierRole::Gloss, keys),
+        ("Gloss", TierRole::Gloss, whole(gloss)),
+        ("Text", TierRole::Translation, whole(text)),
+        (CueTier::Phones.cue_tier_name(), TierRole::Free, made.phone_spans(read)),
+        (CueTier::Keys.cue_tier_name(), TierRole::Gloss, made.key_spans(read)),
         (CueTier::Hand.cue_tier_name(), TierRole::Free, hand),
         (CueTier::Fingers.cue_tier_name(), TierRole::Free, fingers),
-        ("Dikeys", TierRole::Free, dikeys),
+        ("Dikeys", TierRole::Free, made.piece_spans()),
     ];
     for (position, (name, role, rows)) in (0..).zip(all) {
         let tier = TierRow {
@@ -516,6 +457,66 @@ fn store_sentence_movement(
     tokens::update_recording_tokens(connection, recording, None, &inventories)?;
     store_cue_phases(connection, recording)?;
     Ok(name)
+}
+
+fn seconds_to_micros(seconds: f64) -> i64 {
+    (seconds * 1e6).round() as i64
+}
+
+/// The annotations of the sentence's tiers, without confidence.
+impl SentenceMovement {
+    /// Returns an annotation at a span of the utterance, on the clock of the movement.
+    fn delayed_span(&self, span: TimeSpan, value: String) -> ScoredSpan {
+        let lead = seconds_to_micros(self.lead);
+        let [start, end] = [span.span_start_instant(), span.span_end_instant()];
+        (start.instant_micros() + lead, end.instant_micros() + lead, value, 0.0)
+    }
+
+    fn phone_spans(&self, read: &CuedUtterance) -> Vec<ScoredSpan> {
+        let phone_spans = read.phones.iter().filter_map(|phone| {
+            let (span, symbols) = (phone.span?, read.code.sampa_symbols(&phone.label, read.alphabet)?);
+            let sounds = symbols.iter().any(|symbol| !read.code.is_pause(symbol));
+            sounds.then(|| self.delayed_span(span, symbols.join(" ")))
+        });
+        phone_spans.collect()
+    }
+
+    fn key_spans(&self, read: &CuedUtterance) -> Vec<ScoredSpan> {
+        let key_spans = read
+            .keys
+            .iter()
+            .filter_map(|key| Some(self.delayed_span(key.span?, cue::gloss_cue_key(&key.placement, key.shape))));
+        key_spans.collect()
+    }
+
+    /// Returns the movements of the hand, and those of the fingers, from key to key.
+    fn movement_spans(&self) -> [Vec<ScoredSpan>; 2] {
+        let mut before = REST_DIKEY_END;
+        let mut spans = [Vec::new(), Vec::new()];
+        // The first end is rest, from which the first movement begins.
+        for ((key, _), times) in self.wanted.iter().skip(1).zip(&self.times) {
+            let places = format!("{}>{}", dikey_end_name(before), dikey_end_name(*key));
+            let shapes = format!("{}>{}", before.shape, key.shape);
+            spans[0].push((seconds_to_micros(times.m1), seconds_to_micros(times.m2), places, 0.0));
+            spans[1].push((seconds_to_micros(times.d1), seconds_to_micros(times.d2), shapes, 0.0));
+            before = *key;
+        }
+        spans
+    }
+
+    /// Returns the provenance of each piece.
+    fn piece_spans(&self) -> Vec<ScoredSpan> {
+        let piece_spans = self.pieces.iter().zip(self.wanted.windows(2)).map(|(piece, ends)| {
+            let stands = piece
+                .instead
+                .map_or_else(String::new, |(from, to)| format!(" by {}", pair_name(from, to)));
+            let (from, to) = piece.wanted;
+            let value = format!("{}{stands} from {}", pair_name(from, to), piece.source);
+            // A piece reaches from the target of the key before to its own.
+            (seconds_to_micros(ends[0].1), seconds_to_micros(ends[1].1), value, 0.0)
+        });
+        piece_spans.collect()
+    }
 }
 
 /// Returns the sentence's markers: the hand, and the head's rigid ones.

@@ -386,6 +386,8 @@ fn write_file(
 ) -> CorpusResult<()> {
     // Damaged rows must not go out unnoticed into files of others.
     verify(connection, what, format)?;
+    let tokens = || selected_export_tokens(connection, what);
+    let stretch = || selected_export_stretch(connection, what);
     match (format, what) {
         (SingleFileFormat::Json, ExportWhat::Inventory(name)) => {
             let text = values::find_stored_inventory(connection, name)?.inventory.to_json();
@@ -404,33 +406,23 @@ fn write_file(
             csv::write_annotation_csv(connection, *tier, form, out)
         }
         (SingleFileFormat::Table(form), ExportWhat::Address(CorpusAddress::Recording(_)))
-            if let Ok(stretch) = selected_export_stretch(connection, what)
-                && selected_export_tokens(connection, what)?.is_empty()
+            if let Ok(stretch) = stretch()
+                && tokens()?.is_empty()
                 && foreign::has_track_kind(connection, stretch.recording.id, TrackKind::Curves)? =>
         {
             notes.push("the recording has no tokens: the table holds its curves".to_owned());
             foreign::write_number_table(connection, &stretch, TrackKind::Curves, form.delimiter, out, notes)
         }
         (SingleFileFormat::Table(form), _) => {
-            let tokens = selected_export_tokens(connection, what)?;
             let form = TableForm {
                 audience: gate.export_audience().consent_audience(),
                 ..form
             };
-            csv::write_token_csv(connection, &tokens, form, out, notes, progress)
+            csv::write_token_csv(connection, &tokens()?, form, out, notes, progress)
         }
-        (SingleFileFormat::Curves(delimiter), _) => {
-            let stretch = selected_export_stretch(connection, what)?;
-            let moves = stored_recordings::body_track(connection, stretch.recording.id)?.is_some();
-            let shows = moves && curves::has_some(connection, &stretch)?;
-            // Without a face of the body, the table holds a track of curves as it was imported.
-            if !shows {
-                return foreign::write_number_table(connection, &stretch, TrackKind::Curves, delimiter, out, notes);
-            }
-            curves::write_table(connection, &stretch, delimiter, out)
-        }
+        (SingleFileFormat::Curves(delimiter), _) => write_face_curves(connection, &stretch()?, delimiter, out, notes),
         (SingleFileFormat::Eaf, _) => {
-            let stretch = selected_export_stretch(connection, what)?;
+            let stretch = stretch()?;
             if stretch.token.is_some() {
                 let name = &stretch.recording.name;
                 notes.push(format!("the file holds all of the recording {name:?}"));
@@ -438,13 +430,12 @@ fn write_file(
             export_eaf::write_recording_eaf(connection, &stretch.recording, out)
         }
         (SingleFileFormat::Bvh, _) => {
-            let stretch = selected_export_stretch(connection, what)?;
+            let stretch = stretch()?;
             notes.extend(export_bvh::late_start(connection, &stretch)?);
             export_bvh::write_bvh_stretch(connection, &stretch, out, progress).map(|_| ())
         }
         (SingleFileFormat::Glb, _) => {
-            let stretch = selected_export_stretch(connection, what)?;
-            if foreign::write_glb_stretch(connection, &stretch, gate, out)? > 0 {
+            if foreign::write_glb_stretch(connection, &stretch()?, gate, out)? > 0 {
                 notes.push(GLB_MARKERS_NOTE.to_owned());
             }
             Ok(())
@@ -452,40 +443,42 @@ fn write_file(
         (SingleFileFormat::Parquet(long), _) => {
             export_long::write_long_table(connection, what, long, gate, out, notes, progress)
         }
-        (SingleFileFormat::Vrma, _) => {
-            let stretch = selected_export_stretch(connection, what)?;
-            foreign::write_vrma_stretch(connection, &stretch, gate, out, notes)
-        }
-        (SingleFileFormat::Points(form), _) => {
-            let stretch = selected_export_stretch(connection, what)?;
-            foreign::write_marker_file(connection, &stretch, form, out, notes)
-        }
+        (SingleFileFormat::Vrma, _) => foreign::write_vrma_stretch(connection, &stretch()?, gate, out, notes),
+        (SingleFileFormat::Points(form), _) => foreign::write_marker_file(connection, &stretch()?, form, out, notes),
         (SingleFileFormat::Markers(delimiter), _) => {
-            let stretch = selected_export_stretch(connection, what)?;
-            foreign::write_number_table(connection, &stretch, TrackKind::Markers, delimiter, out, notes)
+            foreign::write_number_table(connection, &stretch()?, TrackKind::Markers, delimiter, out, notes)
         }
         (SingleFileFormat::ElanTable, _) => {
-            let stretch = selected_export_stretch(connection, what)?;
-            has_tiers(connection, &stretch)?;
-            foreign::elan_table(connection, &stretch.recording, out)
+            foreign::elan_table(connection, &with_tiers(connection, stretch()?)?.recording, out)
         }
         (SingleFileFormat::TextGrid, _) => {
-            let stretch = selected_export_stretch(connection, what)?;
-            has_tiers(connection, &stretch)?;
-            foreign::text_grid(connection, &stretch.recording, out, notes)
+            foreign::text_grid(connection, &with_tiers(connection, stretch()?)?.recording, out, notes)
         }
         (SingleFileFormat::Subtitles(form), ExportWhat::Address(CorpusAddress::Tier(tier))) => {
             export_subtitles::write_tier_subtitles(connection, *tier, form, out)
         }
         (SingleFileFormat::Subtitles(form), _) => {
-            let stretch = selected_export_stretch(connection, what)?;
-            export_subtitles::first_group(connection, &stretch.recording, form, out, notes)
+            export_subtitles::first_group(connection, &stretch()?.recording, form, out, notes)
         }
         (SingleFileFormat::Notation(form), _) => {
-            let tokens = selected_export_tokens(connection, what)?;
-            export_notation::write_token_notations(connection, &tokens, form, out, notes, progress)
+            export_notation::write_token_notations(connection, &tokens()?, form, out, notes, progress)
         }
     }
+}
+
+/// Writes the face of a recording's body as a table; without one, a track of curves as it was imported.
+fn write_face_curves(
+    connection: &Connection,
+    stretch: &RecordingStretch,
+    delimiter: u8,
+    out: &mut dyn Write,
+    notes: &mut Vec<String>,
+) -> CorpusResult<()> {
+    let moves = stored_recordings::body_track(connection, stretch.recording.id)?.is_some();
+    if moves && curves::has_some(connection, stretch)? {
+        return curves::write_table(connection, stretch, delimiter, out);
+    }
+    foreign::write_number_table(connection, stretch, TrackKind::Curves, delimiter, out, notes)
 }
 
 /// Returns a note on each row that is not as it was stored: what can be read of a damaged corpus can be saved whole.
@@ -535,10 +528,10 @@ fn verify(connection: &Connection, what: &ExportWhat, format: SingleFileFormat) 
     }
 }
 
-/// Fails if a recording has no tiers.
-fn has_tiers(connection: &Connection, stretch: &RecordingStretch) -> CorpusResult<()> {
+/// Returns the stretch; fails if its recording has no tiers.
+fn with_tiers(connection: &Connection, stretch: RecordingStretch) -> CorpusResult<RecordingStretch> {
     if !stored_tiers::load_tier_rows(connection, stretch.recording.id)?.is_empty() {
-        return Ok(());
+        return Ok(stretch);
     }
     let name = &stretch.recording.name;
     Err(

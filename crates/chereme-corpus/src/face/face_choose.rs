@@ -378,6 +378,22 @@ impl Corpus {
     }
 }
 
+/// The performances that a ranking compares, and their order.
+#[derive(Default)]
+struct RankedCandidates<'a> {
+    /// The sentence's own face, if the ranking starts from it.
+    query: Option<PhasedPerformance>,
+    ready: Vec<(&'a FacePerformance, PhasedPerformance)>,
+    /// The performances with which each is compared, by their index, if there is no query.
+    references: Vec<usize>,
+    /// Scores and indices, the best first.
+    order: Vec<(f64, usize)>,
+    /// How many comparisons needed a wider window.
+    adapted: u64,
+    /// Addresses of those that could not be compared, and why.
+    skipped: Vec<(String, String)>,
+}
+
 /// A request for a ranking.
 struct RankingRequest<'a> {
     options: &'a ChooseOptions,
@@ -390,6 +406,64 @@ struct RankingRequest<'a> {
 
 impl RankingRequest<'_> {
     fn ranked(&self, gold: Option<&FacePerformance>, others: &[&FacePerformance]) -> CorpusResult<PerformanceChoice> {
+        let used = self.usable_channels(gold, others);
+        if used.is_empty() {
+            return Err(faceless(self.target));
+        }
+        let one = self.own.milestones.m3.is_none();
+        let query = gold.map(|gold| gold.phased_of(self.asked, &used, one)).transpose()?;
+        let mut candidates = RankedCandidates {
+            query,
+            ..RankedCandidates::default()
+        };
+        let cut = in_parallel(others, |performance| performance.phased_of(self.asked, &used, one));
+        for (performance, cut) in others.iter().zip(cut) {
+            match cut {
+                Ok(phased) => candidates.ready.push((performance, phased)),
+                Err(error) => candidates
+                    .skipped
+                    .push((performance.address.clone(), error.to_string())),
+            }
+        }
+        self.score_candidates(&mut candidates);
+        if candidates.order.is_empty() {
+            let why = candidates
+                .skipped
+                .first()
+                .map_or(String::new(), |(address, why)| format!(": {address}: {why}"));
+            return Err(CorpusError::from_wrong_message(format!(
+                "no performance can be compared{why}"
+            )));
+        }
+        let channels: Vec<FaceChannel> = used.iter().map(|at| FACE_CHANNELS[self.asked[*at]]).collect();
+        let ranking = (0..candidates.order.len().min(self.options.limit))
+            .map(|rank| self.explain_ranked(&candidates, rank, &channels))
+            .collect::<CorpusResult<_>>()?;
+        let unused_channels = (0..self.asked.len()).filter(|at| !used.contains(at));
+        Ok(PerformanceChoice {
+            function: self.own.function.clone(),
+            target: self.target.to_string(),
+            recording_id: self.own.recording,
+            milestones: self.own.milestones,
+            rank: match candidates.query {
+                Some(_) => self.options.rank,
+                None => RankingCriterion::Medoid,
+            },
+            left_out: unused_channels
+                .map(|at| FACE_CHANNELS[self.asked[at]].name.to_owned())
+                .collect(),
+            compared: candidates.order.len() as u64,
+            references: candidates.references.len() as u64,
+            adapted: candidates.adapted,
+            ranking,
+            skipped: candidates.skipped,
+            channels,
+        })
+    }
+
+    /// Returns the asked channels, by their index in the request, that the comparison uses: those of the sentence's own
+    /// face, else those that most performances show.
+    fn usable_channels(&self, gold: Option<&FacePerformance>, others: &[&FacePerformance]) -> Vec<usize> {
         let is_usable = |at: &usize| match gold {
             Some(gold) => gold.columns[*at].is_some(),
             None => {
@@ -399,113 +473,81 @@ impl RankingRequest<'_> {
                 shown.count() * 2 >= candidates().count()
             }
         };
-        let use_of: Vec<usize> = (0..self.asked.len()).filter(is_usable).collect();
-        let unused_channels = (0..self.asked.len()).filter(|at| !use_of.contains(at));
-        let left_out = unused_channels
-            .map(|at| FACE_CHANNELS[self.asked[at]].name.to_owned())
-            .collect();
-        if use_of.is_empty() {
-            return Err(faceless(self.target));
-        }
-        let one = self.own.milestones.m3.is_none();
-        let seconds = self.own.milestones.milestone_span().span_seconds();
-        let scoring = self.options.scoring();
-        let query = gold.map(|gold| gold.phased_of(self.asked, &use_of, one)).transpose()?;
-        let cut = in_parallel(others, |performance| performance.phased_of(self.asked, &use_of, one));
-        let mut skipped = Vec::new();
-        let mut ready: Vec<(&FacePerformance, PhasedPerformance)> = Vec::new();
-        for (it, cut) in others.iter().zip(cut) {
-            match cut {
-                Ok(phased) => ready.push((it, phased)),
-                Err(error) => skipped.push((it.address.clone(), error.to_string())),
-            }
-        }
+        (0..self.asked.len()).filter(is_usable).collect()
+    }
+
+    fn sentence_seconds(&self) -> f64 {
+        self.own.milestones.milestone_span().span_seconds()
+    }
+
+    /// Scores the candidates against the sentence's own face, or without one against each other, and orders them.
+    fn score_candidates(&self, candidates: &mut RankedCandidates<'_>) {
+        let (seconds, scoring) = (self.sentence_seconds(), self.options.scoring());
+        let ready = &candidates.ready;
         // Each against each grows with the square; references at even steps represent all recordings.
         let step = ready.len().div_ceil(MAX_MEDOID_REFERENCES).max(1);
-        let references: Vec<usize> = match query {
-            Some(_) => Vec::new(),
-            None => (0..ready.len()).step_by(step).collect(),
-        };
-        let scores = in_parallel(&(0..ready.len()).collect::<Vec<_>>(), |&at| match &query {
+        if candidates.query.is_none() {
+            candidates.references = (0..ready.len()).step_by(step).collect();
+        }
+        let scores = in_parallel(&(0..ready.len()).collect::<Vec<_>>(), |&at| match &candidates.query {
             Some(query) => {
                 let score_result = phases::score_phased_candidate(query, &ready[at].1, seconds, &scoring);
                 score_result.map(|score| (self.options.rank_value(&score), adapted(&score)))
             }
-            None => self.mean_reference_score(&ready, at, &references, seconds),
+            None => self.mean_reference_score(ready, at, &candidates.references, seconds),
         });
-        let mut order = Vec::new();
-        let mut made = 0;
         for (at, score) in scores.into_iter().enumerate() {
             match score {
                 Ok((score, adapted)) => {
-                    made += adapted;
-                    order.push((score, at));
+                    candidates.adapted += adapted;
+                    candidates.order.push((score, at));
                 }
-                Err(error) => skipped.push((ready[at].0.address.clone(), error.to_string())),
+                Err(error) => candidates
+                    .skipped
+                    .push((ready[at].0.address.clone(), error.to_string())),
             }
         }
         let farthest = self.options.rank == RankingCriterion::Farthest;
-        order.sort_by(|(a, i), (b, j)| {
+        candidates.order.sort_by(|(a, i), (b, j)| {
             let by_score = if farthest { b.total_cmp(a) } else { a.total_cmp(b) };
             let name = |at: &usize| (&ready[*at].0.name, &ready[*at].0.address);
             by_score.then_with(|| name(i).cmp(&name(j)))
         });
-        let Some((_, best)) = order.first() else {
-            let why = skipped
-                .first()
-                .map_or(String::new(), |(address, why)| format!(": {address}: {why}"));
-            return Err(CorpusError::from_wrong_message(format!(
-                "no performance can be compared{why}"
-            )));
+    }
+
+    /// Returns the performance at a rank with the parts of its score.
+    fn explain_ranked(
+        &self,
+        candidates: &RankedCandidates<'_>,
+        rank: usize,
+        channels: &[FaceChannel],
+    ) -> CorpusResult<RankedPerformance> {
+        let (score, at) = candidates.order[rank];
+        let (performance, phased) = &candidates.ready[at];
+        let against = match &candidates.query {
+            Some(query) => query,
+            None => {
+                // The most typical performance is explained against the second, as it differs from itself in
+                // nothing.
+                let other = usize::from(rank == 0).min(candidates.order.len() - 1);
+                &candidates.ready[candidates.order[other].1].1
+            }
         };
-        let channels: Vec<FaceChannel> = use_of.iter().map(|at| FACE_CHANNELS[self.asked[*at]]).collect();
-        let explain = |&(score, at): &(f64, usize)| -> CorpusResult<RankedPerformance> {
-            // The most typical performance is explained against the second, as it differs from itself in
-            // nothing.
-            let against = match (&query, at == *best) {
-                (Some(query), _) => query,
-                (None, false) => &ready[*best].1,
-                (None, true) => &ready[order.get(1).map_or(*best, |(_, second)| *second)].1,
-            };
-            let parts = phases::explain_phased_score(against, &ready[at].1, seconds, &scoring);
-            let it = ready[at].0;
-            Ok(RankedPerformance {
-                token: it.address.clone(),
-                recording: it.name.clone(),
-                recording_id: it.expression.recording,
-                milestones: it.expression.milestones,
-                recipe: transfer_recipe_text(
-                    self.own.recording,
-                    &self.own.function,
-                    &self.own.milestones,
-                    self.start,
-                    &it.address,
-                ),
-                score,
-                parts: FaceScore::from_phased_score(parts.map_err(|error| phased_comparison_error(&error))?, &channels),
-            })
-        };
-        Ok(PerformanceChoice {
-            function: self.own.function.clone(),
-            target: self.target.to_string(),
-            recording_id: self.own.recording,
-            milestones: self.own.milestones,
-            rank: if query.is_some() {
-                self.options.rank
-            } else {
-                RankingCriterion::Medoid
-            },
-            left_out,
-            compared: order.len() as u64,
-            references: references.len() as u64,
-            adapted: made,
-            ranking: order
-                .iter()
-                .take(self.options.limit)
-                .map(explain)
-                .collect::<CorpusResult<_>>()?,
-            skipped,
-            channels,
+        let parts = phases::explain_phased_score(against, phased, self.sentence_seconds(), &self.options.scoring());
+        Ok(RankedPerformance {
+            token: performance.address.clone(),
+            recording: performance.name.clone(),
+            recording_id: performance.expression.recording,
+            milestones: performance.expression.milestones,
+            recipe: transfer_recipe_text(
+                self.own.recording,
+                &self.own.function,
+                &self.own.milestones,
+                self.start,
+                &performance.address,
+            ),
+            score,
+            parts: FaceScore::from_phased_score(parts.map_err(|error| phased_comparison_error(&error))?, channels),
         })
     }
 

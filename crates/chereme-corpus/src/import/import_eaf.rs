@@ -75,14 +75,7 @@ pub(super) fn import_as(
     progress: &mut ProgressReceiver<'_>,
     read: ParseFunction<AnnotationTranscript>,
 ) -> CorpusResult<FileReport> {
-    let maps = job.options.mapping.mapping_entry_names().next().is_some();
-    let here = job.places.find_file_at(&job.place, job.kind).cloned();
-    let takes = job.options.own_edits == OwnEdits::Theirs;
-    // The rest is only skipped if no option could change what the same bytes become.
-    if let Some(here) = here.filter(|row| row.hash == job.hash && !maps && !takes)
-        && let Some(report) = eaf_target::report_unchanged_target(job, &here)?
-    {
-        job.again = here.recording_id;
+    if let Some(report) = report_untouched_file(job)? {
         return Ok(report);
     }
     let bytes = job.read_job_bytes()?;
@@ -112,60 +105,28 @@ pub(super) fn import_as(
         None => Vec::new(),
     };
     let there = standing_tiers(job, recording, &transcript, base.as_ref(), &renames, &mut report)?;
-    if let Some(base) = target.base.as_ref().filter(|_| same && !takes) {
-        // Of the same file, only the mapping can bring something new.
-        if remap_tier_roles(job, &there, &transcript, &guesses, &mut report)? == 0 {
-            let mut same = FileReport::unchanged_file_report(job.path, target.earlier_path_elsewhere(job));
-            same.recording = report.recording;
-            return Ok(same);
-        }
-        report.status = FileStatus::Updated;
-        report.findings.insert(
-            0,
-            ReportFinding::finding_note(format!(
-                "it is the recording {:?} already (from {}); its tiers now have the roles of the mapping",
-                report.recording.as_deref().unwrap_or_default(),
-                base.path.as_ref().unwrap_or(&base.name)
-            )),
-        );
-        // The roles decide which annotations are glosses, so the tokens depend on the mapping.
-        tokens::derive_with_progress(job.connection, recording, None, &job.inventories, progress)?;
-        return Ok(report);
+    let edited = EditedTranscript {
+        transcript: &transcript,
+        base: base.as_ref(),
+        renames: &renames,
+        guesses: &guesses,
+    };
+    // Of the same file, only the mapping can bring something new.
+    if same && job.options.own_edits != OwnEdits::Theirs {
+        return match remap_tier_roles(job, &there, &transcript, &guesses, &mut report)? {
+            0 => Ok(target.unchanged_report(job, report)),
+            _ => finish_remapped_file(job, recording, &target, report, progress),
+        };
     }
     warn_of_length(job, recording, &transcript, &mut report)?;
     let counted = job.counts.total_row_changes();
-    // The report counts only tokens that this file adds to those that were there.
-    let before = crate::db::signs::tokens_of_recording(job.connection, recording)?.len();
-    if there.is_empty() {
-        let tiers = write_tiers(job, recording, &there, &transcript, &guesses, &mut report)?;
-        write_annotations(job, &transcript, &guesses, &tiers, progress)?;
-    } else {
-        let edited = EditedTranscript {
-            transcript: &transcript,
-            base: base.as_ref(),
-            renames: &renames,
-            guesses: &guesses,
-        };
-        update_from_transcript(job, recording, there, &edited, &mut report, progress)?;
-        // A refused file leaves neither a length nor tokens behind.
-        if report.status == FileStatus::Refused {
-            return Ok(report);
-        }
+    if !write_transcript(job, recording, there, &edited, &mut report, progress)? {
+        return Ok(report);
     }
-    stored_recordings::lengthen_recording(job.connection, recording, transcript.transcript_end().instant_micros())?;
-    tokens::derive_with_progress(job.connection, recording, None, &job.inventories, progress)?;
-    let derived = crate::db::signs::tokens_of_recording(job.connection, recording)?.len();
-    if derived > 0 {
-        let unlinked = unlinked_glosses_finding(job, recording)?;
-        report.findings.extend(unlinked);
-    }
-    job.count_created_rows("tokens", derived.saturating_sub(before));
     // Taking the same file again may restore removed annotations, which is a change although the bytes are
     // the same.
     if same && job.counts.total_row_changes() == counted {
-        let mut unchanged = FileReport::unchanged_file_report(job.path, target.earlier_path_elsewhere(job));
-        unchanged.recording = report.recording;
-        return Ok(unchanged);
+        return Ok(target.unchanged_report(job, report));
     }
     if same {
         report.status = FileStatus::Updated;
@@ -182,6 +143,81 @@ pub(super) fn import_as(
         ));
     }
     Ok(report)
+}
+
+/// Returns the report on a file that was imported before, if no option could change what the same bytes become.
+fn report_untouched_file(job: &mut ImportJob<'_>) -> CorpusResult<Option<FileReport>> {
+    let maps = job.options.mapping.mapping_entry_names().next().is_some();
+    let takes = job.options.own_edits == OwnEdits::Theirs;
+    let here = job.places.find_file_at(&job.place, job.kind).cloned();
+    let Some(here) = here.filter(|row| row.hash == job.hash && !maps && !takes) else {
+        return Ok(None);
+    };
+    let report = eaf_target::report_unchanged_target(job, &here)?;
+    if report.is_some() {
+        job.again = here.recording_id;
+    }
+    Ok(report)
+}
+
+/// Reports that the tiers of a file that was imported before have the roles of a new mapping, and derives their tokens.
+fn finish_remapped_file(
+    job: &mut ImportJob<'_>,
+    recording: i64,
+    target: &eaf_target::EafImportTarget,
+    mut report: FileReport,
+    progress: &mut ProgressReceiver<'_>,
+) -> CorpusResult<FileReport> {
+    report.status = FileStatus::Updated;
+    let from = target
+        .base
+        .as_ref()
+        .map(|base| base.path.as_ref().unwrap_or(&base.name));
+    report.findings.insert(
+        0,
+        ReportFinding::finding_note(format!(
+            "it is the recording {:?} already (from {}); its tiers now have the roles of the mapping",
+            report.recording.as_deref().unwrap_or_default(),
+            from.map(String::as_str).unwrap_or_default()
+        )),
+    );
+    // The roles decide which annotations are glosses, so the tokens depend on the mapping.
+    tokens::derive_with_progress(job.connection, recording, None, &job.inventories, progress)?;
+    Ok(report)
+}
+
+/// Writes the tiers of a file, or updates those that it edits, and derives the tokens; returns whether the file was not
+/// refused.
+fn write_transcript(
+    job: &mut ImportJob<'_>,
+    recording: i64,
+    there: BTreeMap<String, TierRow>,
+    edited: &EditedTranscript<'_>,
+    report: &mut FileReport,
+    progress: &mut ProgressReceiver<'_>,
+) -> CorpusResult<bool> {
+    let transcript = edited.transcript;
+    // The report counts only tokens that this file adds to those that were there.
+    let before = crate::db::signs::tokens_of_recording(job.connection, recording)?.len();
+    if there.is_empty() {
+        let tiers = write_tiers(job, recording, &there, transcript, edited.guesses, report)?;
+        write_annotations(job, transcript, edited.guesses, &tiers, progress)?;
+    } else {
+        update_from_transcript(job, recording, there, edited, report, progress)?;
+        // A refused file leaves neither a length nor tokens behind.
+        if report.status == FileStatus::Refused {
+            return Ok(false);
+        }
+    }
+    stored_recordings::lengthen_recording(job.connection, recording, transcript.transcript_end().instant_micros())?;
+    tokens::derive_with_progress(job.connection, recording, None, &job.inventories, progress)?;
+    let derived = crate::db::signs::tokens_of_recording(job.connection, recording)?.len();
+    if derived > 0 {
+        let unlinked = unlinked_glosses_finding(job, recording)?;
+        report.findings.extend(unlinked);
+    }
+    job.count_created_rows("tokens", derived.saturating_sub(before));
+    Ok(true)
 }
 
 /// An edited file from which a recording is updated.

@@ -42,22 +42,10 @@ pub(super) fn import_lexicon(job: &mut ImportJob<'_>, progress: &mut ProgressRec
         return Ok(report.clone());
     }
     let bytes = job.read_job_bytes()?;
-    let mut read = lexicon::read_lexicon(&bytes, &job.options.mapping);
-    let mapped = read.as_ref().is_ok_and(|(table, _)| map_columns(job, table));
+    let columns = LexiconColumnsRead::read_lexicon_columns(job, &source, &bytes)?;
     // A lexicon that is named now takes the signs over.
     let is_taken_over = source.is_of_other_lexicon(job)?;
-    let mut mapping = job.options.mapping.clone();
-    let before = match source.newest {
-        // A mapping that was given once holds for new versions of the file, too, until another is given.
-        Some(id) if !mapped => stored_recordings::source_mapping(job.connection, id)?,
-        _ => None,
-    };
-    let is_mapped_before = before.is_some();
-    if let Some(before) = before {
-        read = lexicon::read_lexicon(&bytes, &before);
-        mapping = before;
-    }
-    let (table, findings) = match read {
+    let (table, findings) = match columns.read {
         // A folder may hold tables of other kinds, which are no reason to complain.
         Err(error @ TableError::Missing { .. }) if !job.named => {
             return Ok(FileReport::skipped_file_report(job.path, &lexicon_table_error(&error)));
@@ -65,17 +53,17 @@ pub(super) fn import_lexicon(job: &mut ImportJob<'_>, progress: &mut ProgressRec
         other => other.map_err(|error| lexicon_table_error(&error))?,
     };
     let mut report = match earlier_report {
-        Some(report) if !mapped && !is_taken_over => return Ok(report),
+        Some(report) if !columns.is_mapped_now && !is_taken_over => return Ok(report),
         Some(_) => FileReport::new(job.path, FileStatus::Updated),
         None => FileReport::new(job.path, FileStatus::Imported),
     };
     let remapped = report.status == FileStatus::Updated;
-    let stated = stated_meanings(&table, &mapping);
-    if remapped && mapped {
+    let stated = stated_meanings(&table, &columns.mapping);
+    if remapped && columns.is_mapped_now {
         report.findings.push(ReportFinding::finding_note(
             "it was imported before: its columns were read again, as the mapping says",
         ));
-    } else if is_mapped_before && !stated.is_empty() {
+    } else if columns.is_mapped_before && !stated.is_empty() {
         let stated_texts = stated.iter().map(|(title, text)| format!("{title:?} {text}"));
         let named: Vec<String> = stated_texts.collect();
         report.findings.push(ReportFinding::finding_note(format!(
@@ -92,33 +80,12 @@ pub(super) fn import_lexicon(job: &mut ImportJob<'_>, progress: &mut ProgressRec
         _ => job.keep_source_file(None, Some(&bytes))?,
     };
     stored_recordings::set_source_mapping(job.connection, file, &stated)?;
-    let by_row = LexiconCells::read_lexicon_cells(job, &table)?;
-    // A table that names the lexicon in each row needs none for itself.
-    let lexicon = match by_row.covers_all_rows {
-        true => None,
-        false => lexicon_of_table(job, source.newest)?,
-    };
-    if let Some(lexicon) = &lexicon {
-        lexicons::set_file_lexicon(job.connection, file, lexicon.id)?;
-    }
-    let names = lexicon
-        .iter()
-        .map(|lexicon| &lexicon.name)
-        .chain(by_row.lexicons.keys());
-    let names: Vec<&str> = names.map(String::as_str).collect();
-    report.understood.lexicon = (!names.is_empty()).then(|| names.join(", "));
+    let mut signs = LexiconSigns::prepare_lexicon_signs(job, &table, source, file, &mut report)?;
     let numerals = numerals(&table);
     report.findings.extend(unsure_numbers(&table, &numerals));
     let stored = job.inventories.clone();
     let words = NotationValueMapper::new(&stored);
     let total = Some(table.entries.len() as u64);
-    let mut signs = LexiconSigns {
-        earlier: EarlierEntries::load_earlier_entries(job, &source.place, source.newest.is_some(), &table)?,
-        source,
-        lexicon: lexicon.map(|lexicon| lexicon.id),
-        by_row,
-        ..LexiconSigns::default()
-    };
     for (done, entry) in table.entries.iter().enumerate() {
         let token = import_entry(job, &table, entry, (&inventories, &numerals), &mut signs)?;
         if let Some(text) = &entry.notation {
@@ -145,6 +112,40 @@ pub(super) fn import_lexicon(job: &mut ImportJob<'_>, progress: &mut ProgressRec
     report.findings.extend(signs.earlier.row_id_finding());
     report.findings.extend(signs.earlier.missing_entries_finding());
     Ok(report)
+}
+
+/// The columns of a table as a mapping understands them.
+struct LexiconColumnsRead {
+    read: Result<(SignLexicon, Vec<ImportFinding>), TableError>,
+    mapping: TierMapping,
+    /// Whether the mapping of this import names a column.
+    is_mapped_now: bool,
+    /// Whether the mapping is that of an earlier import.
+    is_mapped_before: bool,
+}
+
+impl LexiconColumnsRead {
+    fn read_lexicon_columns(job: &mut ImportJob<'_>, source: &LexiconFileSource, bytes: &[u8]) -> CorpusResult<Self> {
+        let mapping = job.options.mapping.clone();
+        let read = lexicon::read_lexicon(bytes, &mapping);
+        let is_mapped_now = read.as_ref().is_ok_and(|(table, _)| map_columns(job, table));
+        let before = match source.newest {
+            // A mapping that was given once holds for new versions of the file, too, until another is given.
+            Some(id) if !is_mapped_now => stored_recordings::source_mapping(job.connection, id)?,
+            _ => None,
+        };
+        let is_mapped_before = before.is_some();
+        let (read, mapping) = match before {
+            Some(before) => (lexicon::read_lexicon(bytes, &before), before),
+            None => (read, mapping),
+        };
+        Ok(Self {
+            read,
+            mapping,
+            is_mapped_now,
+            is_mapped_before,
+        })
+    }
 }
 
 /// The earlier imports of a file.
@@ -277,6 +278,38 @@ struct KnownSign {
 }
 
 impl LexiconSigns {
+    /// Returns the signs of a table before its first row: their lexicon, and the entries of earlier imports.
+    fn prepare_lexicon_signs(
+        job: &mut ImportJob<'_>,
+        table: &SignLexicon,
+        source: LexiconFileSource,
+        file: i64,
+        report: &mut FileReport,
+    ) -> CorpusResult<Self> {
+        let by_row = LexiconCells::read_lexicon_cells(job, table)?;
+        // A table that names the lexicon in each row needs none for itself.
+        let lexicon = match by_row.covers_all_rows {
+            true => None,
+            false => lexicon_of_table(job, source.newest)?,
+        };
+        if let Some(lexicon) = &lexicon {
+            lexicons::set_file_lexicon(job.connection, file, lexicon.id)?;
+        }
+        let names = lexicon
+            .iter()
+            .map(|lexicon| &lexicon.name)
+            .chain(by_row.lexicons.keys());
+        let names: Vec<&str> = names.map(String::as_str).collect();
+        report.understood.lexicon = (!names.is_empty()).then(|| names.join(", "));
+        Ok(Self {
+            earlier: EarlierEntries::load_earlier_entries(job, &source.place, source.newest.is_some(), table)?,
+            source,
+            lexicon: lexicon.map(|lexicon| lexicon.id),
+            by_row,
+            ..Self::default()
+        })
+    }
+
     /// Returns the sign of a row; inserts it if it is missing.
     fn sign_of_row(&mut self, job: &mut ImportJob<'_>, row: &LexiconEntry) -> CorpusResult<&mut KnownSign> {
         let lexicon = self.by_row.lexicon_of_row(row).or(self.lexicon);

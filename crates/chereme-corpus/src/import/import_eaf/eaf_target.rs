@@ -23,10 +23,13 @@ pub(super) struct EafImportTarget {
 }
 
 impl EafImportTarget {
-    /// Returns the path of the earlier version, if it differs.
-    pub(super) fn earlier_path_elsewhere(&self, job: &ImportJob<'_>) -> Option<&str> {
-        let path = self.base.as_ref()?.path.as_deref()?;
-        (path != job.place).then_some(path)
+    /// Returns the report that a file changed nothing, with the path of the earlier version if it differs.
+    pub(super) fn unchanged_report(&self, job: &ImportJob<'_>, report: FileReport) -> FileReport {
+        let path = self.base.as_ref().and_then(|base| base.path.as_deref());
+        FileReport {
+            recording: report.recording,
+            ..FileReport::unchanged_file_report(job.path, path.filter(|path| *path != job.place))
+        }
     }
 
     /// Reads the earlier version; nothing if the corpus does not have it or it cannot be read.
