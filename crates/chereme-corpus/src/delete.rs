@@ -19,7 +19,7 @@ use crate::db::stored_recordings;
 use crate::db::stored_tiers;
 use crate::edit::sign_there;
 use crate::error::{CorpusError, CorpusResult};
-use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::progress::ProgressReceiver;
 use crate::words;
 use crate::words::effect::OperationEffect;
 
@@ -318,12 +318,7 @@ impl DeletionPlan {
         let mut done = self.foreseen(connection)?;
         let mut affected: BTreeMap<i64, String> = BTreeMap::new();
         for (count, recording) in self.recordings.iter().enumerate() {
-            progress.report_step(ProgressStep {
-                task: "deleting",
-                done: count as u64,
-                total: Some(self.recordings.len() as u64),
-                unit: ProgressUnit::Items,
-            })?;
+            progress.report_items("deleting", count, self.recordings.len())?;
             for token in signs::tokens_of_recording(connection, *recording)? {
                 affected.insert(token.sign_id, token.gloss);
             }

@@ -27,7 +27,7 @@ use crate::db::stored_recordings::{self, RecordingRow};
 use crate::db::stored_tiers::{self, PROPOSAL_TIER_SUFFIX, TierRow, proposed_for};
 use crate::error::{CorpusError, CorpusResult};
 use crate::movement::{ChannelGroup, MotionTrack};
-use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::progress::ProgressReceiver;
 use crate::propose::{ProposeScope, accepting_tier, proposal_tier};
 use crate::words::effect::{AnnotationEffect, OperationEffect};
 
@@ -203,12 +203,7 @@ impl Corpus {
         };
         let mut changes = ProposalChanges::default();
         for (done, row) in all.iter().enumerate() {
-            progress.report_step(ProgressStep {
-                task: &row.name,
-                done: done as u64,
-                total: Some(all.len() as u64),
-                unit: ProgressUnit::Items,
-            })?;
+            progress.report_items(&row.name, done, all.len())?;
             let span = within.unwrap_or_else(|| whole_recording_span(row));
             let mut proposals = match propose_for_recording(connection, detector, row)? {
                 DetectionOutcome::Found(proposals) => proposals,

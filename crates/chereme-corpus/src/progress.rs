@@ -66,6 +66,19 @@ impl<'a> ProgressReceiver<'a> {
             _ => Ok(()),
         }
     }
+
+    /// Reports that `done` of all items of a task are done.
+    ///
+    /// # Errors
+    /// [`CorpusError::Stopped`] if the receiver asks to stop.
+    pub fn report_items(&mut self, task: &str, done: usize, total: usize) -> CorpusResult<()> {
+        self.report_step(ProgressStep {
+            task,
+            done: done as u64,
+            total: Some(total as u64),
+            unit: ProgressUnit::Items,
+        })
+    }
 }
 
 /// Ignores the step and never stops.

@@ -10,7 +10,7 @@ use crate::Corpus;
 use crate::db::stored_recordings;
 use crate::detect::ExaminedTake;
 use crate::error::CorpusResult;
-use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::progress::ProgressReceiver;
 
 /// The names of the baselines.
 const BASELINE_NAMES: [&str; 3] = ["uniform", "speed_minima", "activities"];
@@ -24,12 +24,7 @@ pub(super) fn measure_baselines(
     let connection = corpus.store.read_connection();
     let mut compared: [SpanComparison; 3] = Default::default();
     for (done, pair) in coded.pairs.iter().enumerate() {
-        progress.report_step(ProgressStep {
-            task: &pair.recording.name,
-            done: done as u64,
-            total: Some(coded.pairs.len() as u64),
-            unit: ProgressUnit::Items,
-        })?;
+        progress.report_items(&pair.recording.name, done, coded.pairs.len())?;
         // A baseline over a part of the recordings could not be compared with the figures over all.
         if stored_recordings::body_track(connection, pair.recording.id)?.is_none() {
             return Ok(Vec::new());

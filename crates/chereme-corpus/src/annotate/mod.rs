@@ -51,7 +51,7 @@ use crate::db::stored_columns::AnnotationOrigin;
 use crate::db::stored_tiers::{self as tier_rows, AnnotationRow, TierRow};
 use crate::error::{CorpusError, CorpusResult};
 use crate::inventories::StoredInventory;
-use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::progress::ProgressReceiver;
 use crate::tokens;
 use crate::words::effect::{AnnotationEffect, OperationEffect};
 use deeds::AnnotationDeeds;
@@ -266,12 +266,7 @@ fn carry_out_changes(
         work.run_annotation_change(change)?;
         // A single change is over before a report could be seen.
         if changes.len() > 1 && done % 64 == 0 {
-            progress.report_step(ProgressStep {
-                task: "annotating",
-                done: done as u64,
-                total: Some(changes.len() as u64),
-                unit: ProgressUnit::Items,
-            })?;
+            progress.report_items("annotating", done, changes.len())?;
         }
     }
     let deeds = std::mem::take(&mut work.deeds);

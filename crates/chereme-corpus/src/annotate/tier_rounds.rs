@@ -13,7 +13,7 @@ use crate::address::{self, CorpusAddress, RowName};
 use crate::db::stored_recordings::{self, RecordingRow};
 use crate::db::stored_tiers::{self as rows, TierRow};
 use crate::error::{CorpusError, CorpusResult};
-use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::progress::ProgressReceiver;
 use crate::words::InterfaceLanguage;
 use crate::words::effect::{OperationEffect, TierRoundDeed};
 use crate::words::history_words::operation_sentence;
@@ -148,12 +148,7 @@ impl Corpus {
         let carry = |connection: &Connection, progress: &mut ProgressReceiver<'_>| {
             let mut refusals = Vec::new();
             for (done, id) in ids.iter().enumerate() {
-                progress.report_step(ProgressStep {
-                    task: "recordings",
-                    done: done as u64,
-                    total: Some(ids.len() as u64),
-                    unit: ProgressUnit::Items,
-                })?;
+                progress.report_items("recordings", done, ids.len())?;
                 let recording = stored_recordings::load_recording_row(connection, *id)?;
                 connection.execute_batch("SAVEPOINT round")?;
                 match work.run_in_recording(connection, &recording, progress) {

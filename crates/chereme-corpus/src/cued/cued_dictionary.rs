@@ -19,7 +19,7 @@ use crate::Corpus;
 use crate::address::RowName;
 use crate::cue::KeysOptions;
 use crate::error::{CorpusError, CorpusResult};
-use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::progress::ProgressReceiver;
 
 /// The number of components kept for the positions of the hand's markers.
 const KEPT_HAND_COMPONENTS: usize = 40;
@@ -284,12 +284,7 @@ pub(super) fn cut_dikey_book(
     let rigid = rigid_set(faces.flat_map(|own| own.take.face.iter())).unwrap_or_default();
     let mut all = Vec::new();
     for (n, own) in takes.iter().enumerate() {
-        progress.report_step(ProgressStep {
-            task: &own.take.row.name,
-            done: n as u64,
-            total: Some(takes.len() as u64),
-            unit: ProgressUnit::Items,
-        })?;
+        progress.report_items(&own.take.row.name, n, takes.len())?;
         all.push(in_head(own));
     }
     let flat: Vec<&Vec<f64>> = all.iter().flatten().flatten().map(|(hand, _)| hand).collect();

@@ -24,7 +24,7 @@ use crate::db::stored_recordings;
 use crate::db::stored_tiers;
 use crate::error::{CorpusError, CorpusResult};
 use crate::notation;
-use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::progress::ProgressReceiver;
 use crate::tokens::join_phase_values;
 use crate::words::format_noun_count;
 
@@ -250,12 +250,7 @@ fn csv_write_error(error: ::csv::Error) -> CorpusError {
 }
 
 fn report_csv_progress(progress: &mut ProgressReceiver<'_>, done: usize, total: usize) -> CorpusResult<()> {
-    progress.report_step(ProgressStep {
-        task: "tokens",
-        done: done as u64,
-        total: Some(total as u64),
-        unit: ProgressUnit::Items,
-    })
+    progress.report_items("tokens", done, total)
 }
 
 /// Returns what is said of a signer to an audience, by the title of its column.

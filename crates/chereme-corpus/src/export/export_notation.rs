@@ -11,7 +11,7 @@ use rusqlite::Connection;
 use crate::db::signs::MAX_ROWS_PER_QUERY;
 use crate::error::{CorpusError, CorpusResult};
 use crate::notation;
-use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::progress::ProgressReceiver;
 use crate::words::format_noun_count;
 
 /// Format of written notation.
@@ -70,12 +70,7 @@ fn load_notated_tokens(
         // The notation of the token itself counts before the one that it was generated from.
         notations.extend(notation::of_tokens(connection, ids)?);
         signs.extend(ids.iter().filter_map(|id| Some(notations.remove(id)?.document)));
-        progress.report_step(ProgressStep {
-            task: "notation",
-            done: (part * MAX_ROWS_PER_QUERY) as u64,
-            total: Some(tokens.len() as u64),
-            unit: ProgressUnit::Items,
-        })?;
+        progress.report_items("notation", part * MAX_ROWS_PER_QUERY, tokens.len())?;
     }
     Ok(signs)
 }

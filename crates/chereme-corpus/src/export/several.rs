@@ -19,7 +19,7 @@ use crate::db::stored_tiers::{self, TierRow};
 use crate::db::unfinished::remove_leftovers_in;
 use crate::db::{signs, stored_recordings};
 use crate::error::{CorpusError, CorpusResult};
-use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::progress::ProgressReceiver;
 
 /// The number of names that a note lists.
 const MAX_LISTED_EXPORT_NAMES: usize = 12;
@@ -141,12 +141,7 @@ fn fill_export_folder(
             }
             Err(error) => return Err(of_part(&part.name, error)),
         }
-        progress.report_step(ProgressStep {
-            task: "files",
-            done: done as u64 + 1,
-            total: Some(parts.len() as u64),
-            unit: ProgressUnit::Items,
-        })?;
+        progress.report_items("files", done + 1, parts.len())?;
     }
     if let Some(error) = first_lack {
         if written.is_empty() {

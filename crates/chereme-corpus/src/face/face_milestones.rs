@@ -16,7 +16,7 @@ use crate::db::stored_columns::AnnotationOrigin;
 use crate::db::stored_recordings;
 use crate::db::stored_tiers;
 use crate::error::CorpusResult;
-use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::progress::ProgressReceiver;
 
 /// Options for the derivation of milestones.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -89,12 +89,7 @@ impl Corpus {
         let mut report = FoundExpressions::default();
         let mut fresh: Vec<(String, i64, FaceExpression)> = Vec::new();
         for (done, row) in all.iter().enumerate() {
-            progress.report_step(ProgressStep {
-                task: &row.name,
-                done: done as u64,
-                total: Some(all.len() as u64),
-                unit: ProgressUnit::Items,
-            })?;
+            progress.report_items(&row.name, done, all.len())?;
             let expressions =
                 expressions::load_recording_expressions(connection, row.id, None, options.tier.as_deref())?;
             // All functions are counted, so that people see which others they could ask for.

@@ -16,7 +16,7 @@ use crate::atomic_write;
 use crate::curves::face_fits::CorpusFits;
 use crate::db::stored_recordings;
 use crate::error::{CorpusError, CorpusResult};
-use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::progress::ProgressReceiver;
 
 /// The frames per second at which onsets are determined.
 const ONSET_SAMPLE_RATE_FPS: f64 = 60.0;
@@ -115,12 +115,7 @@ impl Corpus {
         let fits = CorpusFits::load_corpus_fits(connection)?;
         let all = stored_recordings::load_recording_rows(connection)?;
         for (done, row) in all.iter().enumerate() {
-            progress.report_step(ProgressStep {
-                task: &row.name,
-                done: done as u64,
-                total: Some(all.len() as u64),
-                unit: ProgressUnit::Items,
-            })?;
+            progress.report_items(&row.name, done, all.len())?;
             for it in expressions::load_recording_expressions(connection, row.id, function, None)? {
                 let marks = it.milestones.milestone_times();
                 // Half a second more on both sides shows the face at rest before, and its return after.

@@ -22,7 +22,7 @@ use crate::db::stored_recordings::RecordingRow;
 use crate::db::{stored_history, stored_recordings};
 use crate::error::{CorpusError, CorpusResult};
 use crate::movement::{ChannelGroup, MotionTrack};
-use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::progress::ProgressReceiver;
 
 /// The frames per second at which performances are compared; the window of 10 frames is then a third of a second.
 pub(crate) const PERFORMANCE_RATE_FPS: f64 = 30.0;
@@ -236,12 +236,7 @@ fn read_all(
     let recordings = stored_recordings::load_recording_rows(connection)?;
     for (done, row) in recordings.iter().enumerate() {
         if done % 64 == 0 {
-            progress.report_step(ProgressStep {
-                task: "reading faces",
-                done: done as u64,
-                total: Some(recordings.len() as u64),
-                unit: ProgressUnit::Items,
-            })?;
+            progress.report_items("reading faces", done, recordings.len())?;
         }
         all.extend(load_recording_performances(connection, row, function, channels, &fits)?);
     }

@@ -31,7 +31,7 @@ use crate::db::seals;
 use crate::error::{CorpusError, CorpusResult};
 use crate::inventories;
 use crate::lexicon::LexiconScope;
-use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::progress::ProgressReceiver;
 
 use bodies::DictionaryBodies;
 use entries::{DictionaryEntries, DictionaryEntry, EntryMovement};
@@ -245,12 +245,7 @@ impl Corpus {
         let mut moving = vec![false; found.all.len()];
         let mut written = WrittenSite::default();
         for (at, entry) in found.all.iter().enumerate() {
-            progress.report_step(ProgressStep {
-                task: "writing signs",
-                done: at as u64,
-                total: Some(found.all.len() as u64),
-                unit: ProgressUnit::Items,
-            })?;
+            progress.report_items("writing signs", at, found.all.len())?;
             let mut body = None;
             if entry.moves == EntryMovement::Public {
                 match bodies.write_sign_body(self, folder, entry)? {

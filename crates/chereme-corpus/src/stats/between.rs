@@ -9,7 +9,7 @@ use super::stats_fields::FieldValue;
 use super::{StatsEstimate, StatsOptions};
 use crate::error::{CorpusError, CorpusResult};
 use crate::forms::{FormSource, SignForm, SignForms, number_form_cells};
-use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::progress::ProgressReceiver;
 
 /// The number of shuffles between two reports of progress.
 const SHUFFLES_PER_REPORT: usize = 16;
@@ -110,12 +110,7 @@ pub(super) fn associate_fields(
     };
     let hear = |done: usize| match done % SHUFFLES_PER_REPORT {
         0 => progress
-            .report_step(ProgressStep {
-                task: "shuffles",
-                done: done as u64,
-                total: Some(options.samples as u64),
-                unit: ProgressUnit::Items,
-            })
+            .report_items("shuffles", done, options.samples)
             .map_err(ShuffleHalt::Failed),
         _ => Ok(()),
     };

@@ -16,7 +16,7 @@ use crate::db::stored_studies as db;
 use crate::error::{CorpusError, CorpusResult};
 use crate::import::FileStatus;
 use crate::paths::legible_path_text;
-use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::progress::ProgressReceiver;
 use crate::report_finding::ReportFinding;
 use crate::words::effect::OperationEffect;
 
@@ -180,12 +180,7 @@ fn import_answer_files(
         map: map.as_ref(),
     };
     for (done, path) in files.iter().enumerate() {
-        progress.report_step(ProgressStep {
-            task: "reading answers",
-            done: done as u64,
-            total: Some(files.len() as u64),
-            unit: ProgressUnit::Items,
-        })?;
+        progress.report_items("reading answers", done, files.len())?;
         work.import_answers_file(path, &mut report)?;
     }
     Ok(report)

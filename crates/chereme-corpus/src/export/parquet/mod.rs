@@ -226,12 +226,7 @@ fn report_parquet_progress(
     total: usize,
     task: &str,
 ) -> CorpusResult<()> {
-    progress.report_step(ProgressStep {
-        task,
-        done: done as u64,
-        total: Some(total as u64),
-        unit: ProgressUnit::Items,
-    })
+    progress.report_items(task, done, total)
 }
 
 /// Writes a row for each annotation of recordings; for tokens, each annotation that overlaps their span.
