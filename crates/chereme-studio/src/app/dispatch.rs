@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use chereme_corpus::MediaChange;
+use chereme_corpus::{MediaChange, RowName};
 use chereme_motion::{FrameRate, RecordingInstant, TimeSpan};
 use eframe::egui::{Context, ViewportCommand};
 
@@ -18,7 +18,7 @@ use crate::panes::{ActionOutcome, recombine};
 use crate::player::{OpeningPreview, StagePlayer};
 use crate::settings::ThemeChoice;
 use crate::theme;
-use crate::words::shell as words;
+use crate::words::{InterfaceText, shell as words};
 use crate::work::begin::{CorpusOpening, OpeningInProgress};
 use crate::work::{recordings_jobs, whole_corpus};
 
@@ -59,11 +59,7 @@ impl Studio {
                     desk.stop_desk_work(id);
                 }
             }
-            WindowCommand::Begin(begin) => {
-                let starter = matches!(begin, CorpusOpening::Starter(_));
-                self.greets = starter.then(|| self.greets.take().unwrap_or_default());
-                self.beginning = Some(OpeningInProgress::start_corpus_opening(begin, &self.author, &self.wake));
-            }
+            WindowCommand::Begin(begin) => self.begin_opening(begin),
             WindowCommand::Choose(what) => {
                 let now = ctx.input(|input| input.time);
                 self.chooser.ask_for_file(what, self.settings.language, now);
@@ -77,15 +73,7 @@ impl Studio {
                 self.shown.made = None;
                 self.show_recording_by_id(id);
             }
-            WindowCommand::Place(id, span) => {
-                self.show_recording_by_id(id);
-                self.shown.made = None;
-                self.shown.span = Some(span);
-                self.shown.player.seek_player_instant(span.span_start_instant());
-                self.shown
-                    .player
-                    .set_opening_preview(OpeningPreview { span, loops: false });
-            }
+            WindowCommand::Place(id, span) => self.show_recording_span(id, span),
             WindowCommand::Look => self.bring_opened_into_sight(ctx),
             WindowCommand::Tier(tier) => self.shown.tier = tier,
             WindowCommand::Annotations(annotations) => self.shown.annotations = annotations,
@@ -114,8 +102,8 @@ impl Studio {
                     Some(track) => MediaChange::Move(track, path),
                     None => MediaChange::Add(path),
                 };
-                let name = chereme_corpus::RowName::Number(recording);
-                self.out.request_work(recordings_jobs::change_media(name, change));
+                self.out
+                    .request_work(recordings_jobs::change_media(RowName::Number(recording), change));
             }
             WindowCommand::Studied(ChooserPurpose::Disagreements, paths) => self.panes.agreement.take_paths(paths),
             WindowCommand::Studied(what, paths) => self.panes.studies.take_paths(what, paths),
@@ -134,10 +122,7 @@ impl Studio {
                     layout::bring_pane_to_front(&mut self.tree, PaneKind::Inspector);
                 }
             }
-            WindowCommand::Make { recipe, gloss } => {
-                self.panes.recombine.open_recipe_text(&recipe, None, Some(gloss));
-                self.bring_pane_forward(PaneKind::Recombine);
-            }
+            WindowCommand::Make { recipe, gloss } => self.show_recipe_text(&recipe, None, Some(gloss)),
             WindowCommand::Use(carried) => {
                 if let Some(snapshot) = &self.snapshot {
                     self.panes.recombine.take_in(&carried, &snapshot.overview);
@@ -145,30 +130,17 @@ impl Studio {
                 self.bring_pane_forward(PaneKind::Recombine);
             }
             WindowCommand::Find(query) => {
-                let mut out = std::mem::take(&mut self.out);
-                self.panes.search.search_for_query(query, &mut out);
-                self.out = out;
+                self.panes.search.search_for_query(query, &mut self.out);
                 self.bring_pane_forward(PaneKind::Search);
             }
-            WindowCommand::Recipe(recipe, of) => {
-                self.panes.recombine.open_recipe_text(&recipe, of.clone(), of);
-                self.bring_pane_forward(PaneKind::Recombine);
-            }
+            WindowCommand::Recipe(recipe, of) => self.show_recipe_text(&recipe, of.clone(), of),
             WindowCommand::Searches(searches) => self.settings.searches = searches,
             WindowCommand::Stage(stage) => self.settings.stage = *stage,
             WindowCommand::Settings(settings) => {
+                self.keys = ActionKeys::new(settings.keymap, &settings.keys, settings.language);
                 self.settings = *settings;
-                let crate::settings::StudioSettings {
-                    keymap, keys, language, ..
-                } = &self.settings;
-                self.keys = ActionKeys::new(*keymap, keys, *language);
             }
-            WindowCommand::Cannot(text) => {
-                let text = self
-                    .keys
-                    .name_keys_in_text(text.text_in_language(self.settings.language));
-                self.overlays.notices.add_warning(text);
-            }
+            WindowCommand::Cannot(text) => self.overlays.notices.add_warning(self.text_with_keys(text)),
             WindowCommand::SaveCopy(path) => {
                 if let Some(desk) = &self.desk {
                     desk.save_copy(crate::work::begin::with_extension(path));
@@ -182,6 +154,33 @@ impl Studio {
             }
             WindowCommand::Dismiss(notice) => self.overlays.notices.dismiss_notice(notice),
         }
+    }
+
+    fn begin_opening(&mut self, begin: CorpusOpening) {
+        let starter = matches!(begin, CorpusOpening::Starter(_));
+        self.greets = starter.then(|| self.greets.take().unwrap_or_default());
+        self.beginning = Some(OpeningInProgress::start_corpus_opening(begin, &self.author, &self.wake));
+    }
+
+    fn show_recording_span(&mut self, id: i64, span: TimeSpan) {
+        self.show_recording_by_id(id);
+        self.shown.made = None;
+        self.shown.span = Some(span);
+        let player = &mut self.shown.player;
+        player.seek_player_instant(span.span_start_instant());
+        player.set_opening_preview(OpeningPreview { span, loops: false });
+    }
+
+    /// Opens a recipe; `of` is the sign that it made, and `gloss` the one that it is to make.
+    fn show_recipe_text(&mut self, recipe: &str, of: Option<String>, gloss: Option<String>) {
+        self.panes.recombine.open_recipe_text(recipe, of, gloss);
+        self.bring_pane_forward(PaneKind::Recombine);
+    }
+
+    /// Returns a text in the language of the window, with the keys that the user has set.
+    fn text_with_keys(&self, text: InterfaceText) -> String {
+        self.keys
+            .name_keys_in_text(text.text_in_language(self.settings.language))
     }
 
     /// Returns whether the open corpus is read-only.
@@ -325,10 +324,7 @@ impl Studio {
         if let Some(seen) = self.pane_input(ctx) {
             let acted = panes.get_mut(pane).carry_out_pane_action(action, &seen, &mut out);
             if let ActionOutcome::Cannot(text) = acted {
-                let text = self
-                    .keys
-                    .name_keys_in_text(text.text_in_language(self.settings.language));
-                self.overlays.notices.add_warning(text);
+                self.overlays.notices.add_warning(self.text_with_keys(text));
             }
         }
         (self.panes, self.out) = (panes, out);
@@ -477,8 +473,7 @@ impl Studio {
             ctx.memory_mut(|memory| memory.surrender_focus(focused));
         }
         if pane == PaneKind::Search {
-            let text = words::BACK_TO_HITS.text_in_language(self.settings.language);
-            self.overlays.notices.add_hint(self.keys.name_keys_in_text(text));
+            self.overlays.notices.add_hint(self.text_with_keys(words::BACK_TO_HITS));
         }
     }
 

@@ -56,10 +56,7 @@ impl TimelineDrawing<'_, '_> {
 
     /// Returns the annotation that is being typed, or created during playback.
     fn new_ghost(&self, contents: &RecordingContents) -> Option<GhostAnnotation> {
-        let scene = TimelineScene {
-            contents,
-            seen: self.seen,
-        };
+        let scene = TimelineScene::new(contents, self.seen);
         if let Some(begun) = &self.timeline.entry.begun {
             let here = scene.scene_playhead_micros();
             return Some(GhostAnnotation {
@@ -82,10 +79,7 @@ impl TimelineDrawing<'_, '_> {
     }
 
     pub(super) fn show_lane_editor(&mut self, ui: &mut Ui, contents: &RecordingContents, lane: Rect) {
-        let scene = TimelineScene {
-            contents,
-            seen: self.seen,
-        };
+        let scene = TimelineScene::new(contents, self.seen);
         let Some(editing) = &self.timeline.entry.editing else {
             return;
         };

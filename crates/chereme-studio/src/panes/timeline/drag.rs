@@ -105,10 +105,7 @@ impl TimelineDrawing<'_, '_> {
         except: &BTreeSet<i64>,
         time: i64,
     ) -> (i64, Option<SnapTarget>) {
-        let scene = TimelineScene {
-            contents,
-            seen: self.seen,
-        };
+        let scene = TimelineScene::new(contents, self.seen);
         // The playhead moves with the drag, so its old place is a mark instead: the moving one would hold the drag
         // back.
         let marks = [self.timeline.mark];
@@ -237,10 +234,7 @@ impl TimelineDrawing<'_, '_> {
                     .collect()
             };
             it.changed = it.held.iter().map(moved).collect();
-            let scene = TimelineScene {
-                contents,
-                seen: self.seen,
-            };
+            let scene = TimelineScene::new(contents, self.seen);
             let items: Vec<SpanItem> = it.changed.iter().flatten().copied().collect();
             let chosen = items.iter().map(|item| item.id).collect();
             let fits = scene.tier_of(to).is_some_and(|tier| {
@@ -320,10 +314,7 @@ impl TimelineDrawing<'_, '_> {
     }
 
     fn finish_timeline_gesture(&mut self, contents: &RecordingContents, gesture: TimelineGesture) {
-        let scene = TimelineScene {
-            contents,
-            seen: self.seen,
-        };
+        let scene = TimelineScene::new(contents, self.seen);
         match gesture {
             // A click with Alt creates nothing.
             TimelineGesture::Create { tier, span, .. } if span.1 > span.0 => {

@@ -208,10 +208,7 @@ impl TimelineDrawing<'_, '_> {
             chosen = BTreeSet::from([id]);
             self.out.send_command(WindowCommand::Annotations(chosen.clone()));
         }
-        let scene = TimelineScene {
-            contents,
-            seen: self.seen,
-        };
+        let scene = TimelineScene::new(contents, self.seen);
         let held_annotations = scene.held_annotations(&chosen);
         // Annotations in lists have no times of their own.
         if held_annotations.iter().all(|held| held.kind == TierTiming::Listed) {
@@ -282,10 +279,7 @@ impl TimelineDrawing<'_, '_> {
     fn double_click(&mut self, contents: &RecordingContents, at: usize, pointer: Pos2, lane: Rect) {
         let tier = &contents.tiers[at];
         let here = self.instant_at_x(pointer.x - lane.left());
-        let scene = TimelineScene {
-            contents,
-            seen: self.seen,
-        };
+        let scene = TimelineScene::new(contents, self.seen);
         if self.seen.snapshot.is_read_only() {
             return self.show_gesture_hint(crate::words::shell::READ_ONLY_WHY);
         }

@@ -42,9 +42,13 @@ pub(super) struct TimelineScene<'a> {
 }
 
 impl<'a> TimelineScene<'a> {
+    pub(super) fn new(contents: &'a RecordingContents, seen: &'a PaneInput<'a>) -> Self {
+        Self { contents, seen }
+    }
+
     pub(super) fn scene_from_input(seen: &'a PaneInput<'a>) -> Option<Self> {
         let contents = seen.snapshot.recording_contents(seen.shown.recording?)?;
-        Some(Self { contents, seen })
+        Some(Self::new(contents, seen))
     }
 
     /// Returns the tier that edits apply to: the selected one, else the first.

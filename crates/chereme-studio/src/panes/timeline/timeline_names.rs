@@ -24,10 +24,7 @@ impl TimelineDrawing<'_, '_> {
         name: Rect,
     ) {
         let tier = &contents.tiers[row.tier];
-        let scene = TimelineScene {
-            contents,
-            seen: self.seen,
-        };
+        let scene = TimelineScene::new(contents, self.seen);
         let chosen = scene
             .edited_tier()
             .is_some_and(|chosen_tier| chosen_tier.row.id == tier.row.id);
@@ -177,10 +174,7 @@ impl TimelineDrawing<'_, '_> {
             // A tier that is dropped in front of itself stays.
             let order = timeline_tiers::order_before_sibling(&all, id, before).filter(|_| before != Some(id));
             if let Some(order) = order {
-                let scene = TimelineScene {
-                    contents,
-                    seen: self.seen,
-                };
+                let scene = TimelineScene::new(contents, self.seen);
                 timeline_tiers::request_tier_order(&scene, order, self.out);
             }
             return;

@@ -306,10 +306,7 @@ impl TimelineDrawing<'_, '_> {
                     self.out.send_command(WindowCommand::Do(action));
                 }
             }
-            let scene = TimelineScene {
-                contents,
-                seen: self.seen,
-            };
+            let scene = TimelineScene::new(contents, self.seen);
             bar::show_copy_tiers_menu(ui, &scene, self.out);
         });
     }
