@@ -32,12 +32,6 @@ pub struct ResolvedRecipe {
 }
 
 impl ResolvedRecipe {
-    /// Returns the recipe.
-    #[must_use]
-    pub fn resolved_recipe(&self) -> &Recipe {
-        &self.recipe
-    }
-
     /// Returns the chosen inputs, to be stored with the recipe; see [`restore_recipe_inputs`].
     #[must_use]
     pub fn resolved_inputs(&self) -> &RecipeInputs {

@@ -82,7 +82,7 @@ pub use image::RasterImage;
 pub use palette::{FigurePalette, PaperTheme, RgbColour};
 pub use points::{PointCloud, points_sheet};
 pub use points_film::{PointsAnimation, PointsOptions};
-pub use sheet::{PictureProgress, SheetFrames, SheetOptions, clip_thumbnail, contact_sheet, thumbnail_with_face};
+pub use sheet::{PictureProgress, SheetFrames, SheetOptions, clip_thumbnail, contact_sheet};
 pub use strip::{AnimationCaption, AnimationStrip};
 pub use view::{ClipFraming, FigureView, SigningReach, active_signing_frames, has_hand_up, stroke_frame};
 pub use writer::write_png;

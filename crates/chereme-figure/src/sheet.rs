@@ -193,49 +193,6 @@ pub fn clip_thumbnail(
     Ok(FigureRaster::default().draw_mesh_picture(&mesh, &camera, size, style))
 }
 
-/// The height of a face in the corner of a small picture, as a share of the picture's height.
-const FACE_INSET_SHARE: f32 = 0.45;
-
-/// Draws one small picture as [`clip_thumbnail`] does, with the face from nearby in its upper right corner: `faces` are
-/// those of the clip's frames, at rest beyond them.
-///
-/// # Errors
-/// The same as [`clip_thumbnail`]'s.
-pub fn thumbnail_with_face(
-    clip: &Clip,
-    anatomy: &BodyAnatomy,
-    faces: &[FacePosture],
-    size: [usize; 2],
-    style: &FigureStyle,
-) -> Result<RasterImage, FigureError> {
-    let framing = ClipFraming::framing_from_clip(clip, anatomy).ok_or(FigureError::Empty)?;
-    let size = checked_view(size[0], size[1])?;
-    let frame = stroke_frame(clip, anatomy);
-    let pose = clip.model_pose(frame);
-    let body = SignerBody::new(clip.clip_skeleton(), anatomy);
-    let mut mesh = body.posed_mesh(&pose);
-    if let Some(face) = faces.get(frame) {
-        body.apply_face_expression(&pose, face, &mut mesh);
-    }
-    let mut raster = FigureRaster::default();
-    let mut draw = |view: FigureView, size: [usize; 2]| {
-        let aspect = size[0] as f32 / size[1] as f32;
-        let camera = framing.framing_camera(view, aspect, &pose, anatomy);
-        raster.draw_mesh_picture(&mesh, &camera, size, style)
-    };
-    let mut image = draw(FigureView::Addressee, size);
-    let side = (size[1].min(size[0]) as f32 * FACE_INSET_SHARE) as usize;
-    // Below eight pixels nothing of a face can be seen.
-    if side >= 8 {
-        let near = draw(FigureView::Face, [side - 1, side - 1]);
-        let left = size[0] - side;
-        let rule = style.theme.rule_colour();
-        image.fill_image_rectangle([left as i64, 0], [side as i64, side as i64], rule);
-        image.paste_image(&near, [left + 1, 0]);
-    }
-    Ok(image)
-}
-
 /// Returns time and number of a frame for its label.
 fn sheet_frame_label(clip: &Clip, frame: usize) -> String {
     let seconds = clip.clip_frame_rate().frame_start_instant(frame).instant_seconds();

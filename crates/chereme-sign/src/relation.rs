@@ -104,27 +104,6 @@ impl TimeRelation {
             Self::Covers => a.has_span_inside(b),
         }
     }
-
-    /// Returns the relation of `b` to `a` if this one is that of `a` to `b`; `None` if it has no name.
-    #[must_use]
-    pub fn inverse_relation(self) -> Option<Self> {
-        Some(match self {
-            Self::Inside => Self::Covers,
-            Self::Covers => Self::Inside,
-            Self::Overlaps | Self::NotOverlaps | Self::Equals => self,
-            Self::OverlapsBegin => Self::OverlapsEnd,
-            Self::OverlapsEnd => Self::OverlapsBegin,
-            Self::Before => Self::After,
-            Self::After => Self::Before,
-            Self::Meets => Self::MetBy,
-            Self::MetBy => Self::Meets,
-            Self::Starts => Self::StartedBy,
-            Self::StartedBy => Self::Starts,
-            Self::Finishes => Self::FinishedBy,
-            Self::FinishedBy => Self::Finishes,
-            Self::NotInside | Self::Around(_) | Self::OfBegin(_) | Self::OfEnd(_) => return None,
-        })
-    }
 }
 
 fn widen_span(start: RecordingInstant, end: RecordingInstant, reach: i64) -> TimeSpan {
@@ -334,15 +313,6 @@ mod tests {
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(64))]
-
-        #[test]
-        fn an_inverse_relation_holds_for_the_swapped_pair(a in any_span(), b in any_span()) {
-            for relation in columns() {
-                if let Some(inverse) = relation.inverse_relation() {
-                    prop_assert_eq!(relation.relation_holds(a, b), inverse.relation_holds(b, a), "{}", relation);
-                }
-            }
-        }
 
         #[test]
         fn around_no_distance_is_inside(a in any_span(), b in any_span()) {

@@ -23,37 +23,6 @@ pub enum AlphaScale<'a> {
     Distance(&'a dyn Fn(usize, usize) -> f64),
 }
 
-/// Returns the pairs of two annotators who both gave a value.
-#[must_use]
-pub fn annotator_value_pairs(items: &[AnnotatedItem]) -> Vec<(usize, usize)> {
-    let pair = |item: &AnnotatedItem| match item[..] {
-        [Some(a), Some(b), ..] => Some((a, b)),
-        _ => None,
-    };
-    items.iter().filter_map(pair).collect()
-}
-
-/// Returns the share of equal pairs among all pairs of values of one item.
-///
-/// # Errors
-/// [`UndefinedAgreement::NoPair`].
-pub fn item_raw_agreement(items: &[AnnotatedItem]) -> AgreementMeasure {
-    let (mut equal, mut all) = (0_u64, 0_u64);
-    for item in items {
-        let values: Vec<usize> = item.iter().flatten().copied().collect();
-        for (nth, a) in values.iter().enumerate() {
-            for b in &values[nth + 1..] {
-                all += 1;
-                equal += u64::from(a == b);
-            }
-        }
-    }
-    if all == 0 {
-        return Err(UndefinedAgreement::NoPair);
-    }
-    Ok(equal as f64 / all as f64)
-}
-
 /// The counts of a square table of two annotators: its margins and its diagonal.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AgreementCounts {

@@ -65,15 +65,6 @@ const NONMANUAL_DONOR_SLOT: AnswerSlot<MaterialInput> = AnswerSlot::new("nonmanu
 const EXPRESSION_SLOT: AnswerSlot<ExpressionInput> = AnswerSlot::new("nonmanual/expression");
 
 impl NonmanualSettings {
-    /// Returns head and face of a whole sign, fitted to this one's time.
-    #[must_use]
-    pub fn nonmanual_from_sign(from: impl Into<String>) -> Self {
-        Self {
-            from: from.into(),
-            ..Self::default()
-        }
-    }
-
     /// Returns whether it transfers an expression with milestones, instead of a whole sign.
     #[must_use]
     pub fn is_expression(&self) -> bool {

@@ -432,11 +432,11 @@ fn store_sentence_movement(
         recording,
         &NewTrack::new("markers", TrackContent::Markers(build_sentence_markers(made, book)?)),
     )?;
-    let whole = |text: &str| vec![(0, end, text.to_owned(), 0.0)];
+    let spanning = |text: &str| vec![(0, end, text.to_owned(), 0.0)];
     let [hand, fingers] = made.movement_spans();
     let all = [
-        ("Gloss", TierRole::Gloss, whole(gloss)),
-        ("Text", TierRole::Translation, whole(text)),
+        ("Gloss", TierRole::Gloss, spanning(gloss)),
+        ("Text", TierRole::Translation, spanning(text)),
         (CueTier::Phones.cue_tier_name(), TierRole::Free, made.phone_spans(read)),
         (CueTier::Keys.cue_tier_name(), TierRole::Gloss, made.key_spans(read)),
         (CueTier::Hand.cue_tier_name(), TierRole::Free, hand),

@@ -10,7 +10,6 @@ mod loose;
 #[cfg(test)]
 mod tests;
 
-pub use apply::apply_difference;
 pub use compare_merge::{MergeConflict, MergedTranscript, merge_transcripts, merge_two, with_candidates};
 
 use crate::transcript::AnnotationTranscript;

@@ -1,11 +1,13 @@
 //! Tests of differences and merges of annotation documents: cases by hand, and laws under random changes.
 
+mod applied;
 mod unchanged_side;
 
-use super::{MergedTranscript, TranscriptDifference, apply_difference, diff_transcripts, merge_two, with_candidates};
+use super::{MergedTranscript, TranscriptDifference, diff_transcripts, merge_two, with_candidates};
 use crate::compare::merge_transcripts;
 use crate::transcript::AnnotationTranscript;
 use crate::transcript::{AnnotationAddress, AnnotationTiming, TranscriptAnnotation, TranscriptTier};
+use applied::apply_difference;
 use chereme_motion::{RecordingInstant, TimeSpan};
 use chereme_sign::TierStereotype;
 use proptest::prelude::*;

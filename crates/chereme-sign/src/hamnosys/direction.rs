@@ -23,8 +23,6 @@ impl SpatialDirection {
     pub const DOWN_DIRECTION: Self = Self::from_direction_steps(-1, 0, 0);
     /// Away from the signer.
     pub const OUT_DIRECTION: Self = Self::from_direction_steps(0, 1, 0);
-    /// Towards the signer.
-    pub const IN_DIRECTION: Self = Self::from_direction_steps(0, -1, 0);
     /// To the signer's left.
     pub const LEFT_DIRECTION: Self = Self::from_direction_steps(0, 0, 1);
     /// To the signer's right.

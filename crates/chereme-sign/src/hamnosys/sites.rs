@@ -10,9 +10,7 @@ use super::tree::{BodyLocation, LocationSide, PlaceContact, SidedLocation};
 
 mod sites_points;
 
-pub use sites_points::{
-    DigitFace, NotatedHandPoint, coming_first, digit_joint, finger_point, from_bone, hand_points, on_palm,
-};
+pub use sites_points::{DigitFace, NotatedHandPoint, coming_first, digit_joint, from_bone, hand_points, on_palm};
 
 /// The part of the body that a place belongs to; it determines distances.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

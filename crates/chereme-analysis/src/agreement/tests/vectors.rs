@@ -47,7 +47,7 @@ fn figures_of_items() {
         let all: Vec<AnnotatedItem> = (0..count)
             .map(|at| coders.iter().map(|values| place(&values[at])).collect())
             .collect();
-        let pairs = AgreementCounts::from_value_pairs(&items::annotator_value_pairs(&all));
+        let pairs = AgreementCounts::from_value_pairs(&value_pairs(&all));
         let two = coders.len() == 2;
         let complete = all.iter().all(|item| item.iter().all(Option::is_some));
         // Some programs give 1 for one value; here it is undefined.
@@ -56,15 +56,16 @@ fn figures_of_items() {
             let at = format!("{id} {name}");
             let wanted = &result["value"];
             let found = match name.as_str() {
-                "raw" => items::item_raw_agreement(&all),
+                "raw" if two => pairs.counted_raw_agreement(),
                 "cohen_kappa" => pairs.cohen_kappa(),
                 "scott_pi" => pairs.scott_pi(),
                 "alpha_nominal" => items::krippendorff_alpha(&all, AlphaScale::Nominal),
                 "alpha_ordinal" => items::krippendorff_alpha(&all, AlphaScale::Ordinal),
                 "alpha_interval" => items::krippendorff_alpha(&all, AlphaScale::Interval),
                 "gwet_ac1" if two && complete => pairs.counted_gwet_ac1(),
-                // No command offers weighted and Fleiss' kappa, nor AC1 of more than two annotators.
-                "cohen_kappa_linear"
+                // No command offers weighted and Fleiss' kappa, nor these of more than two annotators.
+                "raw"
+                | "cohen_kappa_linear"
                 | "cohen_kappa_quadratic"
                 | "fleiss_kappa"
                 | "gwet_ac1"

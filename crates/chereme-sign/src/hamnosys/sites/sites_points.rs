@@ -4,9 +4,7 @@
 use chereme_motion::{BodyPart, BodySide as Half, HandFinger};
 
 use super::{BodyRegion, half_of_side};
-use crate::hamnosys::tree::{
-    FingerPart, HandClass, HandDigit, HandLocation, HandSite, Handshape, LocationSide, ThumbPosition,
-};
+use crate::hamnosys::tree::{HandClass, HandDigit, HandLocation, HandSite, Handshape, LocationSide, ThumbPosition};
 
 /// A point of a hand or of its arm.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -104,19 +102,6 @@ pub fn hand_points(site: &HandSite, of: Half, mirrored: bool) -> Vec<NotatedHand
             };
             each(&|digit| NotatedHandPoint::Middle(digit, face), HandDigit::Index)
         }
-    }
-}
-
-/// Returns the part of a finger that a contact of fingers names.
-#[must_use]
-pub fn finger_point(digit: HandDigit, part: FingerPart) -> NotatedHandPoint {
-    match part {
-        FingerPart::Tip => NotatedHandPoint::Tip(digit, DigitFace::Middle),
-        FingerPart::Nail => NotatedHandPoint::Tip(digit, DigitFace::Dorsal),
-        FingerPart::Pad => NotatedHandPoint::Tip(digit, DigitFace::Palmar),
-        FingerPart::MidJoint => NotatedHandPoint::Middle(digit, DigitFace::Middle),
-        FingerPart::Base => NotatedHandPoint::Base(digit, DigitFace::Middle),
-        FingerPart::Side => NotatedHandPoint::Middle(digit, DigitFace::Radial),
     }
 }
 
