@@ -86,6 +86,7 @@ pub fn edit_distance(a: &str, b: &str, most: usize) -> Option<usize> {
     if a.len().abs_diff(b.len()) > most {
         return None;
     }
+    // Distances beyond the limit are all alike, so that only a band along the diagonal is computed (Ukkonen).
     let far = most.saturating_add(1);
     let mut before = vec![far; b.len() + 1];
     let mut last: Vec<usize> = (0..=b.len()).map(|j| j.min(far)).collect();
@@ -96,12 +97,14 @@ pub fn edit_distance(a: &str, b: &str, most: usize) -> Option<usize> {
         for j in from..=to {
             let changed = last[j - 1] + usize::from(a[i - 1] != b[j - 1]);
             let mut least = changed.min(last[j] + 1).min(row[j - 1] + 1);
+            // Two exchanged neighbours are one slip.
             if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
                 least = least.min(before[j - 2] + 1);
             }
             row[j] = least.min(far);
         }
         if to < b.len() {
+            // The next row looks one cell beyond this band, which holds numbers of an earlier row.
             row[to + 1] = far;
         }
         (before, last, row) = (last, row, before);

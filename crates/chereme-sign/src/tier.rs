@@ -454,6 +454,7 @@ impl TierSet {
             let Some(span) = self.annotation_by_id(parent).map(|parent| parent.span) else {
                 continue;
             };
+            // Children with the same place stay in the order in which they were made.
             family.sort_by_key(|child| (child.order, child.id));
             let count = family.len();
             for (place, mut child) in family.into_iter().enumerate() {

@@ -109,6 +109,7 @@ fn phased(
             around[*place].span.span_end_instant(),
         )
     });
+    // A value that lasts over two annotations is one phase.
     places.dedup_by(|later, earlier| around[*later].reading == around[*earlier].reading);
     let last = places.len().saturating_sub(1);
     let phase = |place: usize| match place {

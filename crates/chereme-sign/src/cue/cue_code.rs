@@ -192,6 +192,7 @@ impl CueCode {
                     known: variant_names(),
                 })?;
             for (vowel, placement) in &variant.placements {
+                // A vowel has one placement, so the variant takes it away from the usual one.
                 for known in &mut code.placements {
                     known.vowels.retain(|other| other != vowel);
                     if known.id == *placement {

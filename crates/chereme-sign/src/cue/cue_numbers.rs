@@ -154,6 +154,7 @@ fn below_thousand(value: u64, words: &mut Vec<String>, last: bool) {
         push(SMALL_NUMBER_WORDS[hundreds as usize]);
     }
     if hundreds > 0 {
+        // *Cents* has its s only at the end: *deux cents*, but *deux cent un* and *deux cent mille*.
         push(if hundreds > 1 && rest == 0 && last {
             "cents"
         } else {
@@ -167,6 +168,7 @@ fn below_thousand(value: u64, words: &mut Vec<String>, last: bool) {
         17..=19 => [SMALL_NUMBER_WORDS[10], SMALL_NUMBER_WORDS[one]]
             .into_iter()
             .for_each(&mut push),
+        // *Quatre-vingts* loses its s before another word of the number, as *cents* does.
         80 => ["quatre", if last { "vingts" } else { "vingt" }]
             .into_iter()
             .for_each(&mut push),
@@ -179,6 +181,8 @@ fn below_thousand(value: u64, words: &mut Vec<String>, last: bool) {
             }
         }
         _ => {
+            // From 70 to 79 one counts on from 60, and from 81 to 99 from 80: *soixante-dix-sept*,
+            // *quatre-vingt-onze*.
             let above = if rest < 80 {
                 push(TENS_NUMBER_WORDS[6]);
                 rest - 60
@@ -186,6 +190,7 @@ fn below_thousand(value: u64, words: &mut Vec<String>, last: bool) {
                 ["quatre", "vingt"].into_iter().for_each(&mut push);
                 rest - 80
             };
+            // *Soixante et onze* has an *et*, but *quatre-vingt-onze* has none.
             if rest == 71 {
                 push("et");
             }
@@ -240,6 +245,7 @@ pub(super) fn join_number_word(
         ("neuf", "ans" | "heures") => "n 9 v",
         ("dix", "sept") => "d i",
         ("dix", "huit" | "neuf") => "d i z",
+        // In *quatre-vingt-un* the t of *vingt* is silent, in *vingt et un* it is not.
         ("vingt", next) if after_four && is_number(next) => "v E~",
         ("vingt", next) if under_ten(next) => "v E~ t",
         ("cent", next) if is_number(next) => "s A~",

@@ -22,6 +22,7 @@ pub fn of_espeak(printed: &str, code: &CueCode) -> (String, Vec<char>) {
                     read_symbols.push(label);
                 }
                 None => {
+                    // Blanks part words, which phones of a sentence do not need.
                     if letters[letter_index] != ' ' {
                         unknown.push(letters[letter_index]);
                     }

@@ -104,6 +104,7 @@ pub fn pronounce_french_text(text: &str, options: PronunciationOptions) -> Frenc
         let (before, after) = spoken.words.split_at_mut(at);
         let (earlier, word) = before.split_at_mut(at - 1);
         let (word, next) = (&mut word[0], &after[0]);
+        // Numbers come first: their words break the rules by which other words are joined.
         let settled = cue_numbers::join_number_word(earlier.last(), word, next, rules.begins_with_vowel(next));
         if !settled {
             rules.join_next_word(word, next, options);
@@ -321,6 +322,7 @@ impl SpellingRules {
         let mut phones: Vec<String> = Vec::new();
         let mut letter_start = 1;
         while let Some(letter) = marked[letter_start..].chars().next() {
+            // The closing mark is there for rules about ends of words, and is no letter itself.
             if letter_start + 1 == marked.len() {
                 break;
             }
@@ -331,6 +333,7 @@ impl SpellingRules {
             };
             let of_letter = self.by_letter.get(&letter);
             let Some(rule) = of_letter.and_then(|rules| rules.iter().find(fits)) else {
+                // An apostrophe only parts words; a letter with rules of which none fits is silent.
                 if of_letter.is_none() && letter != '\'' {
                     findings.push(CueFinding::UnknownLetter {
                         letter,
@@ -348,10 +351,12 @@ impl SpellingRules {
                 phones.extend(rule.phones.iter().cloned());
             }
         }
+        // Few words sound their final r, such as *mer* and *hiver*; the rules give all others the ending of verbs.
         if word.ends_with("er") && self.er_is_said.contains(word) {
             phones.pop();
             phones.extend(["E".to_owned(), "R".to_owned()]);
         }
+        // At the end of a word o is always closed: *numéro*, *trop*.
         if let Some(last) = phones.last_mut().filter(|last| *last == "O") {
             "o".clone_into(last);
         }
@@ -365,6 +370,7 @@ impl SpellingRules {
             let (before, word) = words.split_at_mut(at);
             let word = &mut word[0];
             let near_words = before.iter().rev();
+            // Pronouns may stand between subject and verb: *ils nous le content*.
             let mut near = near_words.take_while(|neighbour| {
                 let text = neighbour.text.as_str();
                 VERB_PRONOUNS.contains(&text) || ["ils", "elles"].contains(&text)
@@ -377,6 +383,7 @@ impl SpellingRules {
             };
             if let Some(stem) = word.text.strip_suffix("nt")
                 && stem.ends_with('e')
+                // Words in -ment may be adverbs, as in *elles seulement*, and keep their nasal vowel.
                 && !stem.ends_with("me")
                 && ends(&["A~"])
                 && is_subject(&["ils", "elles"])

@@ -147,6 +147,8 @@ impl CueCode {
                 CueSound::Pause => {}
                 CueSound::Vowel(_) => self.vowel_keys(self.vowel_alone, &heard, position - 1..position, &mut keys),
                 CueSound::Consonant(shape) => match heard.get(position) {
+                    // A consonant and the vowel after it are one key: its shape by the one, its placement by the
+                    // other.
                     Some(next) if matches!(next.sound, CueSound::Vowel(_)) => {
                         position += 1;
                         self.vowel_keys(*shape, &heard, position - 2..position, &mut keys);
@@ -204,6 +206,7 @@ impl CueCode {
                         label: phone.label.clone(),
                     });
                 }
+                // Only neighbours are compared, as phones are in order.
                 end = Some(span.span_end_instant());
             }
             match self.sampa_symbols(&phone.label, alphabet) {
@@ -221,6 +224,7 @@ impl CueCode {
                         code: self.id.clone(),
                     });
                     heard.push(TranslatedPhone {
+                        // The sounds around an unknown one must not become one key.
                         symbol: "#".to_owned(),
                         at,
                         sound: CueSound::Pause,

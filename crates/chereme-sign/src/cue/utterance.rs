@@ -133,6 +133,7 @@ impl CuedUtterance {
             Some(alphabet) => {
                 for word in input.split_whitespace() {
                     let (label, ms) = with_duration(word)?;
+                    // A word with a duration is one phone, however many symbols it has.
                     match espeak::cut_joined_phones(&label, &code, alphabet).filter(|_| ms.is_none()) {
                         Some(symbols) => given.extend(symbols.into_iter().map(|symbol| (symbol, None))),
                         None => given.push((label, ms)),
@@ -192,11 +193,13 @@ impl CuedUtterance {
             };
             let gap = last_end.map_or(0, |at| span.span_start_instant().instant_micros() - at.instant_micros());
             let mut length = span.span_micros();
+            // Gaps up to 10 ms come from rounding of the file and are no pauses.
             if gap > 10_000 {
                 out.push(format!("#={}", ms(gap)));
             } else {
                 length += gap;
             }
+            // A phone of the file may be several sounds of the code, between which no time is known.
             let each = length / symbols.len().max(1) as i64;
             out.extend(symbols.iter().map(|symbol| format!("{symbol}={}", ms(each))));
             last_end = Some(span.span_end_instant());
@@ -237,6 +240,7 @@ fn assign_phone_times(
     {
         return Err(UtteranceError::Pace(pace));
     }
+    // The usual durations fill in as soon as one phone has a duration or a pace is asked for.
     let is_timed = !given.is_empty() && given.iter().all(|(_, ms)| ms.is_some());
     if !is_timed && pace.is_none() && given.iter().all(|(_, ms)| ms.is_none()) {
         return Ok(given.into_iter().map(|(label, _)| SpokenPhone::new(label)).collect());

@@ -75,6 +75,7 @@ pub fn hand_angles(shape: &Handshape, language: &BodyLanguage) -> HandAngles {
     if let Some(splay) = shape.splay {
         let wide = match splay {
             0 => 0.0,
+            // Splayed once is as wide as a spread hand, splayed twice wider.
             1 => language.splay,
             _ => language.splay * language.splay_more,
         };
@@ -86,9 +87,11 @@ pub fn hand_angles(shape: &Handshape, language: &BodyLanguage) -> HandAngles {
         cross_two_fingers(&mut hand, contact);
     }
     thumb_extra(&mut hand, shape);
+    // In a fist all fingers are closed, so that its bend is that of the thumb.
     let fist_bend = shape.form.bend.filter(|_| shape.form.class == HandClass::Fist);
     if let Some(bend) = shape.bends[0].or(fist_bend) {
         let [_, middle, end] = bend_units(bend);
+        // Bends are counted in quarters of a closed joint.
         hand.thumb[3] = middle / 4.0 * language.bend_thumb_middle;
         hand.thumb[4] = end / 4.0 * language.bend_thumb_end;
     }

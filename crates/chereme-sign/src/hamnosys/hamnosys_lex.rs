@@ -53,6 +53,7 @@ pub(super) fn lex_hamnosys(text: &str, lenient: bool) -> Result<LexedText<'_>, H
     let mut opened = None;
     let chars = lexed.text.char_indices().enumerate();
     for (index, (start, character)) in chars {
+        // Counts symbols as a reader of the notation would, those without meaning included.
         lexed.count = index + 1;
         if lexed.count > MAX_SYMBOLS {
             let count = lexed.text.chars().count();
@@ -65,6 +66,7 @@ pub(super) fn lex_hamnosys(text: &str, lenient: bool) -> Result<LexedText<'_>, H
             if character.is_whitespace() {
                 continue;
             }
+            // The names of unknown symbols were kept aside, each with this character in its place.
             let word = (character == char::REPLACEMENT_CHARACTER).then(|| words.next());
             lexed
                 .findings
@@ -98,6 +100,7 @@ pub(super) fn lex_hamnosys(text: &str, lenient: bool) -> Result<LexedText<'_>, H
                     expected: "alternatives as { one | another }, not nested",
                 });
             }
+            // Of several alternatives the first one is read, as a sign is made in one way only.
             (_, AlternativeChoice::Other) => {}
             _ => lexed.tokens.push(LexedSymbol {
                 kind,
@@ -163,6 +166,7 @@ pub fn in_plain_symbols(text: &str) -> Cow<'_, str> {
 
 fn from_numbers(text: &str) -> Cow<'_, str> {
     const NUMBER_ESCAPES: [&str; 6] = ["u+", "\\u{", "\\u", "\\x{", "&#x", "0x"];
+    // Most texts have no numbers and are returned as they are; the symbols lie from U+E000 on.
     let begins = |pair: &[u8]| matches!(pair, [b'e' | b'E', b'0'] | [b'0', b'x' | b'X']);
     if !text.contains(['\\', '&', '+']) && !text.as_bytes().windows(2).any(begins) {
         return Cow::Borrowed(text);
@@ -180,6 +184,7 @@ fn from_numbers(text: &str) -> Cow<'_, str> {
         let taken = match escape {
             Some((symbol, mut taken)) => {
                 out.push(symbol);
+                // Escapes of programming languages end in a brace, those of HTML in a semicolon.
                 if rest[taken..].starts_with(['}', ';']) {
                     taken += 1;
                 }
@@ -195,6 +200,7 @@ fn from_numbers(text: &str) -> Cow<'_, str> {
             continue;
         }
         let name = |rest: &str| rest.get(..3).is_some_and(|prefix| prefix.eq_ignore_ascii_case("ham"));
+        // Macros of LaTeX are names of symbols with a backslash before them.
         if first == '\\' && name(&rest[1..]) {
             changed = true;
             out.push(' ');

@@ -338,6 +338,7 @@ fn arm_body_site(side: Option<LocationSide>, acting: Half, part: &str) -> BodySi
         Some(LocationSide::Back) => [0.3 * outside, 0.0, -1.0],
         Some(LocationSide::Ulnar) => [0.0, -1.0, 0.2],
         Some(LocationSide::Radial | LocationSide::Dorsal) => [0.2 * outside, 1.0, 0.4],
+        // Without a side a hand meets forearm and elbow from above, and the upper arm from outside.
         _ => match part {
             "forearm" | "elbow" => [0.2 * outside, 1.0, 0.4],
             _ => [0.8 * outside, 0.0, 0.7],

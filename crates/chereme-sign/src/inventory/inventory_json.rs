@@ -294,6 +294,7 @@ fn read_value(value: Value, place: &FilePosition, number: usize) -> Result<Inven
     }
     let landmark: Option<String> = object.take_optional_field("landmark")?;
     let offset: Option<[f64; 3]> = object.take_optional_field("offset")?;
+    // An offset counts from a landmark.
     if landmark.is_none() && offset.is_some() {
         return Err(InventoryError::MissingField {
             place: object.place,

@@ -68,6 +68,7 @@ impl QueryError {
     #[must_use]
     pub fn draw_query_error(&self, query: &str) -> String {
         let chars: Vec<char> = query.chars().collect();
+        // Ten more letters are drawn rather than cut, as the sign of the cut takes room too.
         let from = if self.at.start > MAX_LEADING_CHARS + 10 {
             self.at.start.min(chars.len()) - MAX_LEADING_CHARS
         } else {
@@ -86,6 +87,7 @@ impl QueryError {
         let start = self.at.start.clamp(from, to);
         let end = self.at.end.clamp(start, to);
         let indent = columns(&chars[from..start]) + usize::from(from > 0);
+        // A place at the end of the query is empty and still needs a caret.
         let carets = columns(&chars[start..end]).max(1);
         format!(
             "{line}\n{}{}\n{}",

@@ -74,6 +74,7 @@ pub fn remove_query_condition(query: &str, condition: &str) -> String {
     let rest: String = chars[from..].iter().collect();
     text.push_str(rest.trim_start());
     let text = text.trim();
+    // Parentheses around all that is left mean nothing any more.
     let opened = text.strip_prefix('(').and_then(|text| text.strip_suffix(')'));
     match opened.map(|text| (text.trim(), TokenQuery::parse_query(text))) {
         Some((inner, Ok(query))) if query == wanted => inner.to_owned(),

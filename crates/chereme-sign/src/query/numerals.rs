@@ -41,6 +41,7 @@ impl NumberSpelling {
                 let Some((before, after)) = text.rsplit_once(mark) else {
                     continue;
                 };
+                // Several of one mark can only part thousands; one mark before three digits may be either.
                 let several = before.contains(mark);
                 match before.contains(other) || after.contains(other) {
                     true => match after.contains(other) {
@@ -59,6 +60,7 @@ impl NumberSpelling {
         Self {
             comma: mark(comma),
             point: mark(point),
+            // If the point parts thousands, the comma stands before decimals.
             is_comma_known: comma.0 || comma.1 || mark(point) == NumberMark::Thousands,
         }
     }

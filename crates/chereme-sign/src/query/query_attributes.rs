@@ -116,6 +116,7 @@ pub(super) fn in_parentheses(cursor: &mut QueryCursor<'_>, at: QueryPlace) -> Re
         ));
     }
     cursor.skip_blanks();
+    // The name may be a word without quotes, which ends at the first blank.
     if !cursor.eat_char(')') {
         let remedy = "write ) after the name; a name with blanks needs quotes";
         return Err(QueryError::new(open, "this parenthesis is not closed", remedy));

@@ -144,6 +144,7 @@ pub(super) fn parse_component_field(cursor: &QueryCursor<'_>, at: QueryPlace) ->
             end: start + part.chars().count(),
         };
         start = part_at.end + 1;
+        // Hand and phase stand before the component, in either order.
         let part_word = query_words::canonical_part_name(part);
         if let Ok(component) = SignComponent::from_str(&part_word) {
             break component;
@@ -204,10 +205,12 @@ fn feature_name(parts: Vec<&str>, at: QueryPlace) -> Result<Option<String>, Quer
 }
 
 fn unknown_field(cursor: &QueryCursor<'_>, part: &str, at: QueryPlace, whole: QueryPlace) -> QueryError {
+    // A field that is no component has no hand and no phase.
     if query_words::simple_field(part).is_some() {
         let remedy = "write configuration, placement, movement, orientation or nonmanual here";
         return QueryError::new(at, format!("{part:?} is no component"), remedy);
     }
+    // Simple fields are suggested only for a word that stands alone.
     let single = at.char_range() == whole.char_range();
     let simple = query_words::simple_names().filter(|_| single);
     let others = SignComponent::ALL_COMPONENTS
@@ -224,6 +227,7 @@ fn unknown_field(cursor: &QueryCursor<'_>, part: &str, at: QueryPlace, whole: Qu
     let error = QueryError::new(at, format!("there is no field {part:?}"), "");
     let mut ahead = cursor.clone();
     ahead.skip_blanks();
+    // Glosses of corpora hold colons, as in `PT:PRO1`, and are no fields then.
     if suggestion.is_none() && single && ahead.peek_operator() == Some(":") && part.chars().any(char::is_uppercase) {
         let remedy = "a gloss with a colon stands after gloss= or in quotes".to_owned();
         return QueryError {

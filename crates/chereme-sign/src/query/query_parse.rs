@@ -333,6 +333,7 @@ fn parse_related_test(
         let remedy = format!("{RELATED_REMEDY}; to search for the word, write it in quotes: \"{name}\"");
         let word_at = cursor.skip_bare_word(WordContext::Term);
         let word = cursor.text_at_place(word_at);
+        // A bare word after a relation most often is the gloss of the other sign.
         let searched = !word.is_empty() && !query_words::is_reserved(&word);
         let gloss = searched.then(|| format!("gloss={word}"));
         return Err(QueryError::new(word_at, message, remedy).with_suggestion(gloss));
@@ -393,6 +394,7 @@ fn parse_like_search(cursor: &mut QueryCursor<'_>, at: QueryPlace) -> Result<Que
     let joint_at = ahead.skip_bare_word(WordContext::Term);
     let joint = ahead.text_at_place(joint_at);
     let on = [query_words::ON_WORD, query_words::FRENCH_ON].contains(&&joint[..]);
+    // Before an operator the word is a field, and no part of the example.
     if on && !operator_follows(&ahead) {
         *cursor = ahead;
         like.on = weighted_fields(cursor)?;
@@ -447,6 +449,7 @@ fn parse_like_example(
     };
     let (kind, name) = text.split_once(':').filter(|_| !word.quoted).unwrap_or(("", &text));
     if !matches!(kind, "token" | "sign") {
+        // Glosses in capitals may hold a colon; only words in small letters look like a kind of address.
         let nearest_kind = nearest_candidate(kind, ["token", "sign"]).filter(|_| kind.chars().any(char::is_lowercase));
         if nearest_kind.is_some() || kind == "recording" || kind == "signer" {
             let kind_at = QueryPlace {

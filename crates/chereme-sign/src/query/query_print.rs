@@ -59,6 +59,7 @@ impl Display for QueryTest {
             TestSubject::Whole(field, comparison) => {
                 write!(f, "{}{comparison}", field.text_field_name())
             }
+            // Words of any text are written alone, as people write them.
             TestSubject::Words(TextField::Any, words) if words.len() == 1 => {
                 words.iter().try_for_each(|word| write_term(f, word))
             }
@@ -71,6 +72,7 @@ impl Display for QueryTest {
             TestSubject::Fuzzy { field, text, slips } => {
                 write!(f, "{}~", field.text_field_name())?;
                 write_quotable(f, &TextPattern::literal_pattern(&text[..]), |text| !text.contains('~'))?;
+                // One slip is what ~ means without a number.
                 if *slips == 1 { Ok(()) } else { write!(f, "~{slips}") }
             }
             TestSubject::Tier(name, comparison) => {

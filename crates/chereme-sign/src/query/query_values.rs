@@ -81,6 +81,7 @@ pub(super) fn parse_value_path(cursor: &mut QueryCursor<'_>) -> Result<QueryValu
         return Err(QueryError::new(cursor.place_since(start), message, VALUE_PATH_REMEDY));
     }
     if steps.len() > 1 {
+        // Steps are compared with readings that there are.
         for step in &steps {
             if matches!(step.wanted, WantedValue::Missing(_)) {
                 let message = "nothing begins or goes on where no value is";
@@ -137,6 +138,7 @@ fn parse_value_features(cursor: &mut QueryCursor<'_>) -> Result<QueryValue, Quer
             Some(_) => {}
         }
         let feature = feature(cursor)?;
+        // The word applies to the next feature, as the sign - does.
         if feature.name == "not" && !feature.absent && not.is_none() {
             not = Some(feature.at);
         } else if let Some(at) = not.take() {

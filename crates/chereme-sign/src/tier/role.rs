@@ -283,6 +283,7 @@ impl TierTopic {
     pub fn with_phase(text: &str) -> Result<(Self, Option<SignPhase>), RoleError> {
         let lower = text.trim().to_lowercase();
         let (first, rest) = lower.split_once('.').unwrap_or((&lower, ""));
+        // A hand alone is no topic.
         let hand = AnnotatedHands::from_hand_name(first).filter(|_| !rest.is_empty());
         let named = role_from_word(&lower).map(|role| (None, role));
         let handed = || Some((Some(hand?), role_from_word(rest)?));
@@ -294,6 +295,7 @@ impl TierTopic {
             _ => (None, &*lower),
         };
         let field: ComponentField = field.parse().map_err(|_| unknown_role_error(text))?;
+        // Both hands leave no room for one of them, and a face has no hands.
         if both.is_some() && (field.hand.is_some() || !field.component.is_manual()) {
             return Err(unknown_role_error(text));
         }
@@ -375,6 +377,7 @@ fn unknown_role_error(text: &str) -> RoleError {
     let others = roles.copied().chain(["both"]);
     let words: Vec<&str> = component_names.chain(hands).chain(others).collect();
     let folded = fold_text(text);
+    // The first word that no role has is most probably the misspelt one.
     let wrong = folded
         .split(|c: char| !c.is_alphanumeric())
         .find(|word| !word.is_empty() && !words.contains(word))

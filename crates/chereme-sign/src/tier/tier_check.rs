@@ -269,6 +269,7 @@ fn check_ancestors(set: &TierSet, tier: &Tier) -> Option<TierViolation> {
         Some(_) => {}
     }
     let mut above = parent;
+    // A circle above this tier that does not contain it must end, too.
     for _ in 0..MAX_TIER_DEPTH {
         let ancestor = above?;
         if ancestor.id == tier.id {
@@ -286,6 +287,7 @@ fn check_annotations(set: &TierSet, tier: &Tier, found: &mut Vec<TierViolation>)
         found.extend(check_value(set, tier, annotation.id.into(), &annotation.value));
         if tier.is_alignable() {
             found.extend(check_time(annotation, latest));
+            // Annotations in order of their starts may end later than the next one; the longest so far counts.
             latest = latest
                 .into_iter()
                 .chain([annotation])
@@ -414,6 +416,7 @@ fn check_family(
             }
             continue;
         }
+        // An association has one child at most.
         if place > 0 && !listed {
             let (annotation, other) = (annotation.into(), children[0].id);
             found.push(TierViolation::SecondAssociation {

@@ -43,6 +43,7 @@ impl EditPlan<'_> {
                 continue;
             }
             for child in children {
+                // Children that end before the cut stay with the first half, whose handle does not change.
                 if child.span.span_start_instant() >= at {
                     self.puts.push(TierAnnotation {
                         parent: Some(id),
@@ -84,6 +85,7 @@ impl EditPlan<'_> {
             for (place, sibling) in list.into_iter().enumerate() {
                 let order = u32::try_from(place).unwrap_or(u32::MAX);
                 let span = subdivision_share(parent.span, place, count);
+                // The others move up one place, and share the time of their parent without the removed one.
                 if sibling.id == first {
                     self.join_annotations(
                         a,
@@ -217,6 +219,7 @@ impl EditPlan<'_> {
             } else {
                 child.span.span_start_instant()
             };
+            // Tiles leave no gap, so that the last one of the left meets the first one of the right.
             let next = all.get(place + 1).filter(|_| tiles && place + 1 == left.len());
             let end = match next {
                 Some(next) => next.span.span_start_instant(),
@@ -238,6 +241,7 @@ impl EditPlan<'_> {
                     let span = TimeSpan::span_between(start, end);
                     self.join_annotations(a, b, TierAnnotation { span, ..new }, seam)?;
                 }
+                // The second of the pair has gone into the first.
                 Some((_, b)) if b.id == child.id => {}
                 _ => self.put_fitting(new),
             }

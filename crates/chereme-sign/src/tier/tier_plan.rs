@@ -68,6 +68,7 @@ pub fn plan_tier_change(
     change: &AskedTierChange,
     fresh: &mut dyn FnMut() -> AnnotationId,
 ) -> Result<Vec<TierEdit>, EditError> {
+    // Edits of tiers in a circle would not end.
     if let Some(violation) = check_tiers(set).into_iter().next() {
         return Err(violation.into());
     }
@@ -297,6 +298,7 @@ impl<'a> EditPlan<'a> {
             value: value.clone(),
         };
         let mut list: Vec<TierAnnotation> = siblings.into_iter().cloned().collect();
+        // Without an order it comes last.
         list.insert(clamp_order(order.unwrap_or(u32::MAX), list.len()), new);
         self.put_list(above.span, list);
         Ok(())

@@ -144,6 +144,7 @@ pub fn open_span_room(
     }
     let mut new = items[index..].to_vec();
     let mut edge = wanted.1;
+    // All move as far as the first one must.
     let all_by = new.first().map_or(0, |next| (wanted.1 - next.start).max(0));
     for item in &mut new {
         let by = match mode {

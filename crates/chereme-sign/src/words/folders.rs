@@ -272,6 +272,7 @@ fn phrase_parts(pattern: &Pattern<&str>) -> Option<Vec<PhrasePart>> {
                 }
                 Expression::Inline(InlineExpression::StringLiteral { value }) => value,
                 Expression::Select { variants, .. } => {
+                    // A count is shown by its usual variant, as translators see it.
                     let usual = variants.iter().find(|variant| variant.default)?;
                     parts.extend(phrase_parts(&usual.value)?);
                     continue;

@@ -75,6 +75,8 @@ impl<'s, 'i> HandActions<'s, 'i> {
         if part.posture.place.is_none() && !part.holdover {
             for (dominant, _) in acting.notated_hands() {
                 let hand = self.hand_course_mut(dominant);
+                // A hand without a place is in neutral space, unless an earlier part of the sign has left it
+                // elsewhere.
                 if hand.places.is_empty() {
                     hand.places.push(vec![ComponentWord::exact_value("neutral")]);
                 }
@@ -193,6 +195,7 @@ impl<'s, 'i> HandActions<'s, 'i> {
             MotionKind::Target { motion, posture } => self.target_steps(motion.as_deref(), posture, acting, lost),
             MotionKind::Repeated { motion, repetition } => {
                 let mut steps = self.motion_steps(motion, acting, lost);
+                // The inventory has how often, and not how one time differs from the next.
                 if repetition.growth.is_some() || repetition.shift.is_some() || repetition.approx {
                     lost.add_notation_loss("movement.repetition: how it changes");
                 }
@@ -201,6 +204,7 @@ impl<'s, 'i> HandActions<'s, 'i> {
                     step.repetitions
                         .push(components_motion::repetition_value(repetition.repeat));
                     step.repetitions.extend(second.clone());
+                    // A contact that is made several times is what the inventory calls a tap.
                     let tapped = |kind: &mut ComponentWord| kind.word == "contact";
                     for kind in step.kinds.iter_mut().filter_map(|value| tapped(value).then_some(value)) {
                         "tap".clone_into(&mut kind.word);
@@ -258,6 +262,8 @@ impl<'s, 'i> HandActions<'s, 'i> {
             let hand_before = if dominant { &self.dominant } else { &self.weak };
             let before = hand_before.shape.as_ref();
             let kind = match before {
+                // The same fingers with another bend only bend; otherwise the more open of the two shapes names the
+                // motion.
                 Some(before) if before.form.class == shape.form.class => "bending",
                 Some(before) if handshape_openness(before) < handshape_openness(shape) => "opening",
                 Some(_) => "closing",
@@ -271,12 +277,14 @@ impl<'s, 'i> HandActions<'s, 'i> {
                 let step = MotionStep::from_motion_value(ComponentWord::approximate_value(word));
                 match hand_steps.last_mut() {
                     Some(last) => last.join_motion_step(step),
+                    // A turn of a hand that changes its shape at the same time is one motion with it.
                     None => hand_steps.push(step),
                 }
             }
         };
         let palms: Vec<bool> = of_hands(&posture.palm, acting).map(|(hand, _)| hand).collect();
         let fingers: Vec<bool> = of_hands(&posture.extended, acting).map(|(hand, _)| hand).collect();
+        // Palm and fingers change together if the forearm twists, so that the palm alone is counted then.
         if palms.is_empty() {
             turned(&mut fingers.into_iter(), "wrist", &mut steps);
         } else {
@@ -336,6 +344,7 @@ impl HandCourse {
         let once = || vec![ComponentWord::exact_value("once")];
         let mut features: [Vec<Vec<ComponentWord>>; 5] = Default::default();
         for mut step in steps {
+            // Only a movement is made once; a hold has no number of times.
             if step.repetitions.is_empty() && moving {
                 step.repetitions = once();
             }

@@ -62,10 +62,12 @@ pub(super) fn simple_motion_step(motion: &NotatedMotion, symmetry: Option<HandSy
             });
             step
         }
+        // Two crossing paths have no value of their own, so that the nearest one stands for them.
         MotionKind::Cross { .. } => MotionStep::from_motion_value(ComponentWord::approximate_value("path")),
         MotionKind::FingerPlay(digits) if digits.is_empty() => {
             MotionStep::from_motion_value(ComponentWord::exact_value("wiggle"))
         }
+        // The inventory does not say which fingers wiggle.
         MotionKind::FingerPlay(_) => MotionStep::from_motion_value(ComponentWord::approximate_value("wiggle")),
         MotionKind::Still => MotionStep::from_motion_value(ComponentWord::exact_value("hold")),
         _ => return None,

@@ -71,6 +71,7 @@ fn body_place_value(place: &BodyPlace, whose: PlaceHand, lost: &mut NotationLoss
     if site.approx {
         miss("only roughly there");
     }
+    // Mirrored notation means the other side than it writes.
     let site_side = site.side.map(|side| {
         if whose.mirrored {
             mirrored_notated_side(side)
@@ -81,6 +82,7 @@ fn body_place_value(place: &BodyPlace, whose: PlaceHand, lost: &mut NotationLoss
     let side = LateralSide::from_notated_side(site_side, whose.dominant);
     let touching = matches!(place.contact, Some(PlaceContact::Touch | PlaceContact::Brushing));
     let word = match space_height_word(site.at) {
+        // A place that no hand touches is a height of the space before the body.
         Some(height) if !touching && !place.behind => {
             if side.is_some_and(|side| !side.beside) {
                 miss("before the body's side, not beside it");
@@ -196,6 +198,7 @@ fn on_body(at: BodyLocation, side: Option<LateralSide>, behind: bool, miss: &mut
     if behind && word != "head-back" {
         miss("behind it");
     }
+    // The other side is a value for few places; elsewhere it cannot be written.
     let names_side = matches!(word, "cheek-contra" | "shoulder-contra" | "chest-contra");
     if side.is_some() && (!has_side || (other && !names_side)) {
         miss("which side of it");
@@ -240,6 +243,7 @@ fn weak_hand_value(site: &HandSite, lost: &mut NotationLosses) -> ComponentWord 
     let thumb = site.digits.contains_digit(HandDigit::Thumb);
     let (word, exact) = match site.at {
         Some(H::Palm) => ("palm", true),
+        // The ball of the thumb has no value of its own.
         Some(H::ThumbBall) => ("palm", false),
         Some(H::HandBack) => ("hand-back", true),
         Some(H::ThumbSide) => ("thumb-side", true),

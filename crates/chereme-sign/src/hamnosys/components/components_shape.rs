@@ -63,6 +63,7 @@ fn read_symbol_handshape(names: &str) -> Option<Handshape> {
             shape.form.class = class;
             classed = true;
         } else if let Some(bend) = parse_bend_symbol(name) {
+            // A bend after a digit is that of this digit, and without one that of all stretched fingers.
             match digits.pop() {
                 Some(digit) => shape.bends[digit as usize] = Some(bend),
                 None => shape.form.bend = Some(bend),

@@ -142,6 +142,7 @@ impl<'i> SignMapper<'i> {
         for step in steps {
             let mut step_values = Vec::new();
             for value in step {
+                // Directions are written for a right-handed signer; a left-handed one has them the other way round.
                 let word = if self.left_handed && hand.is_some() {
                     mirrored_component_value(component, feature, &value.word)
                 } else {
@@ -157,6 +158,7 @@ impl<'i> SignMapper<'i> {
                     }
                 }
             }
+            // Two steps may differ in what the inventory cannot say, and are one value then.
             let same = |before: &Vec<(&str, bool)>| {
                 let ids = |(a, b): (&(&str, bool), &(&str, bool))| a.0 == b.0;
                 before.len() == step_values.len() && before.iter().zip(&step_values).all(ids)
@@ -168,6 +170,7 @@ impl<'i> SignMapper<'i> {
         let last = written.len().saturating_sub(1);
         for (at, step) in written.iter().enumerate() {
             let phase = match at {
+                // A value of the whole sign has no phase.
                 _ if last == 0 => None,
                 0 => Some(SignPhase::Initial),
                 at if at == last => Some(SignPhase::Final),

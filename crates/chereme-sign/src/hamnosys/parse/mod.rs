@@ -142,6 +142,7 @@ impl<'a> HamnosysParser<'a> {
         while parts.is_empty() || self.at < self.tokens.len() {
             let start = self.at;
             let mut part = self.parse_manual_part(parts.is_empty())?;
+            // Nothing was read and something is left: it must be taken away, or this would not end.
             if self.at == start && self.at < self.tokens.len() {
                 self.refuse_next_symbol("a handshape, a movement or another part of a sign")?;
             } else if !parts.is_empty() && part == ManualPart::default() {
@@ -155,6 +156,7 @@ impl<'a> HamnosysParser<'a> {
                 let separator = !parts.is_empty();
                 let mut out = HamnosysWriter::default();
                 out.write_manual_part(&part, separator);
+                // The symbols are kept only where writing the tree would give others.
                 if out.text != self.text[from..to] {
                     part.written = WrittenSymbols(Some(self.text[from..to].into()));
                 }
@@ -201,6 +203,7 @@ impl<'a> HamnosysParser<'a> {
         };
         while let Some(kind) = self.peek_symbol_kind() {
             let flag = match kind {
+                // Two marks of the symmetry look like others: the larger size is up and down, the bend is out and in.
                 SymbolKind::Size(MotionSize::Big) => &mut symmetry.up_down,
                 SymbolKind::Bend(FingerBend::Bent) => &mut symmetry.out_in,
                 SymbolKind::Alternating => &mut symmetry.out_of_phase,

@@ -73,6 +73,7 @@ impl HamnosysParser<'_> {
         let from = self.at;
         let (kind, mut height) = self.parse_core_motion()?;
         let mut motion = NotatedMotion::new(kind);
+        // Each mark that follows applies to all before it, so that the motion is wrapped again and again.
         for wraps in 0.. {
             self.parse_manner_marks(&mut motion);
             motion.written = self.written_symbols_since(from, |out| out.write_motion(&motion));
@@ -104,6 +105,7 @@ impl HamnosysParser<'_> {
             };
             motion = NotatedMotion::new(wrapped);
             height += 1;
+            // Nested as deep as brackets may be, trees are still walked without running out of stack.
             if height >= MAX_BRACKET_DEPTH || wraps >= MAX_BRACKET_DEPTH {
                 return Err(self.too_deep());
             }
@@ -148,6 +150,7 @@ impl HamnosysParser<'_> {
                 );
                 (self.changed_posture()?, 1)
             }
+            // A mark without a movement belongs to one that is not written: the hand stays.
             SymbolKind::Manner(_) | SymbolKind::Repeat(_) | SymbolKind::Alternating => (MotionKind::Still, 1),
             _ if self.at_body_action() => {
                 let (body, height) = self.deeper(Self::parse_body_action)?;
@@ -507,6 +510,7 @@ impl HamnosysParser<'_> {
                 _,
             ) => {
                 let free = set_empty_slot(&mut amount.first, size);
+                // The mark between the two sizes and the second one were only looked at so far.
                 if free && second.is_some() {
                     amount.second = second;
                     self.at += 2;
@@ -656,6 +660,7 @@ fn apply_growth_mark(kind: &mut MotionKind, growth: MotionGrowth, last: &mut Siz
             set_empty_slot(&mut zigzag.growth, growth)
         }
         MotionKind::Circular(circle) => {
+            // The mark belongs to what was written last, the zigzag or the circle.
             let of_zigzag = *last == SizeMarkTarget::Zigzag;
             match &mut circle.zigzag {
                 Some(zigzag) if of_zigzag => {

@@ -78,6 +78,7 @@ impl HamnosysParser<'_> {
         self.close_bracket(from, BracketKind::Par)?;
         match (dominant, other) {
             (Some(HandPlace::Hand(one)), Some(HandPlace::Hand(two)))
+                // Two parts of hands without contacts of their own touch each other.
                 if one.contact.is_none() && two.contact.is_none() =>
             {
                 let contact = self.parse_contact()?;
@@ -152,6 +153,7 @@ impl HamnosysParser<'_> {
             contact,
             ..HandConstellation::default()
         };
+        // A part after the contact of the two hands is that of both.
         if self.at_hand_site() && hands.dominant.is_none() && contact.is_some() {
             let site = self.parse_hand_site()?;
             hands.dominant = Some(site.clone());
@@ -251,6 +253,7 @@ impl HamnosysParser<'_> {
         };
         if self.at_body_site() {
             let site = self.parse_body_site()?;
+            // Neutral space is where hands are if nothing is written, so that it is no site.
             let plain = site.at == BodyLocation::NeutralSpace && site.side.is_none() && !site.approx;
             place.site = (!plain).then_some(site);
         }
@@ -292,6 +295,7 @@ impl HamnosysParser<'_> {
         };
         loop {
             match self.peek_symbol_kind() {
+                // Marks of double bends select the upper or lower one here: of lips, teeth, eyelids.
                 Some(SymbolKind::Bend(bend)) => match select_body_level(site.at, bend) {
                     Some(level) => {
                         site.at = level;
@@ -304,6 +308,7 @@ impl HamnosysParser<'_> {
                     site.approx = true;
                     self.at += 1;
                 }
+                // Parts of hands name the side of an arm: its palmar side is the inner one.
                 Some(SymbolKind::Hand(part)) if side.is_none() && is_arm(site.at) => {
                     let Some(of_arm) = hand_side(part) else {
                         break;
@@ -363,6 +368,7 @@ impl HamnosysParser<'_> {
             match self.peek_symbol_kind() {
                 Some(SymbolKind::Hand(part)) => {
                     match (site.at, hand_side(part)) {
+                        // The first part is the place, a second one its side.
                         (None, _) if site.digits.is_empty() => site.at = Some(part),
                         (_, Some(side)) if site.side.is_none() => site.side = Some(side),
                         _ => break,
@@ -380,6 +386,7 @@ impl HamnosysParser<'_> {
                     let part = finger_location(part);
                     match site.at {
                         None => site.at = Some(part),
+                        // A side that came first was taken for the place.
                         Some(at) if hand_side(at).is_some() && site.side.is_none() => {
                             site.side = hand_side(at);
                             site.at = Some(part);
@@ -413,6 +420,7 @@ impl HamnosysParser<'_> {
                     site.approx = true;
                     self.at += 1;
                 }
+                // Elbow, forearm and upper arm have one symbol for body and hand.
                 Some(SymbolKind::Body(at)) if parts == 0 => {
                     match arm_location(at) {
                         Some(arm) => {

@@ -65,6 +65,7 @@ impl HamnosysParser<'_> {
         let Some(first) = first else {
             return false;
         };
+        // A second bracket of the same kind is no configuration, as each is written once.
         let taken = match first.kind {
             SymbolKind::Base(_) => !posture.shape.is_unset(),
             SymbolKind::Extended(_) => !posture.extended.is_unset(),
@@ -188,6 +189,7 @@ impl HamnosysParser<'_> {
         loop {
             match self.peek_symbol_kind() {
                 Some(SymbolKind::Between) if matches!(self.symbol_kind_at(self.at + 1), Some(SymbolKind::Base(_))) => {
+                    // A shape lies between two others at most.
                     if shape.between.is_some() {
                         break;
                     }
@@ -206,6 +208,7 @@ impl HamnosysParser<'_> {
                     self.at += 1;
                 }
                 Some(SymbolKind::Thumb(_) | SymbolKind::Bend(_)) => {
+                    // Marks belong to the last written of two forms.
                     let form = shape.between.as_mut().unwrap_or(&mut shape.form);
                     let mut marked = *form;
                     self.form_marks(&mut marked);
@@ -251,6 +254,7 @@ impl HamnosysParser<'_> {
                     if form.thumb.is_some() || form.opening.is_some() {
                         self.note_symbol_finding("the thumb's position is there twice", "write one", true);
                     }
+                    // In a C, the marks of the thumb say how far it is open.
                     match cee_opening(form.class, thumb) {
                         None => form.thumb = Some(thumb),
                         opening => form.opening = opening,
@@ -314,6 +318,7 @@ impl HamnosysParser<'_> {
                 return true;
             }
             Some(SymbolKind::Size(MotionSize::Big)) => {
+                // A finding names the symbol before the reader.
                 if shape.opposed.is_some() {
                     self.at += 1;
                     self.note_symbol_finding("a second finger that the thumb meets", "mark one", true);
@@ -322,6 +327,7 @@ impl HamnosysParser<'_> {
                 shape.opposed = shape.opposed.or(Some(digit));
                 self.at += 1;
             }
+            // A part of a finger at the end is where the thumb touches; anything else begins a place.
             Some(SymbolKind::Part(_)) if ends_shape(two) => {}
             Some(SymbolKind::Part(_) | SymbolKind::Contact(_)) => return false,
             Some(SymbolKind::Open(BracketKind::Seq)) if matches!(two, Some(SymbolKind::Contact(_))) => {
