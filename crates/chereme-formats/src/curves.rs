@@ -167,6 +167,7 @@ pub fn read_curves(bytes: &[u8]) -> Result<(CapturedTracks, Vec<ImportFinding>),
         let mut tracks = CapturedTracks::default();
         for (number, face) in (1..).zip(curves_table::open_face(&text, &mut findings)?) {
             for mut track in face.channels_to_tracks(kind, &mut findings)?.tracks {
+                // The first face keeps the plain name, which links of films and recordings use.
                 if number > 1 {
                     track.name = format!("{} {number}", track.name);
                 }
@@ -224,6 +225,7 @@ impl CurveChannels {
             return Err(CurveError::Empty);
         }
         let day = match (&self.clock, kind) {
+            // Live Link writes the time of day, by which the tracks of a take are joined.
             (CurveClock::Seconds(seconds), CurveFile::LiveLink) => seconds.first().copied(),
             _ => None,
         };
@@ -242,6 +244,7 @@ impl CurveChannels {
                 findings.push_counted_finding(unit);
             }
         }
+        // A plain table may hold anything, and is a face if its names are those of a face system.
         let is_face = kind != CurveFile::Plain || system.is_some();
         let name = if is_face { "face" } else { "curves" };
         let mut track = FileTrack::new(name, CapturedTrackContent::Curves(curves));

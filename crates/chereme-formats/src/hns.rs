@@ -61,6 +61,7 @@ pub fn read_hns(bytes: &[u8]) -> Result<(Vec<HnsSign>, Vec<ImportFinding>), HnsE
         _ => HnsError::Nothing,
     })?;
     let mut entries = Vec::new();
+    // Which column holds glosses shows only over all lines.
     let glosses = gloss_column(&text);
     for (line, text) in (1..).zip(text.lines()) {
         if repair_garbled_symbols(text).is_some() {

@@ -418,6 +418,7 @@ fn build_pose_track(
         }
         let names = crate::tracks::unique_track_names(component.points.iter().map(String::as_str), "point");
         let first = points.len();
+        // Files draw points as limbs to themselves, and name points that were left out.
         let is_limb = |limb: &&[usize; 2]| limb[0] != limb[1] && limb.iter().all(|end| *end < component.points.len());
         limbs.extend(
             component
@@ -455,6 +456,7 @@ fn build_pose_marker(
     let sure: Vec<f32> = (0..body.frames)
         .map(|frame| person.confidence[point_index(frame)])
         .collect();
+    // The format has no gaps: a point without confidence has none of its numbers.
     let unsure_frames = (0u32..)
         .zip(&sure)
         .filter(|(_, sure)| !sure.is_finite() || **sure <= 0.0);

@@ -229,6 +229,7 @@ fn cues_to_transcript(
                         before.value
                     )
                 });
+                // Players show both, but a tier holds one annotation at a time.
                 before.span = TimeSpan::span_between(before.span.span_start_instant(), start);
             }
         }
@@ -252,6 +253,7 @@ fn split_cue_voice(text: &str, is_vtt: bool) -> (Option<String>, String) {
         value.push_str(&rest[..open]);
         rest = &rest[open..];
         let close = if rest.starts_with('<') { '>' } else { '}' };
+        // Braces are tags only before a backslash, as in {\an8}; people write them in glosses.
         let is_tag = match rest.strip_prefix("{") {
             Some(inner) => inner.starts_with('\\'),
             None => rest[1..].starts_with(|c: char| c.is_ascii_alphanumeric() || c == '/'),
@@ -277,6 +279,7 @@ fn split_cue_voice(text: &str, is_vtt: bool) -> (Option<String>, String) {
             ("&nbsp;", "\u{a0}"),
             ("&lrm;", ""),
             ("&rlm;", ""),
+            // The last, or &amp;lt; would become a sign of a tag.
             ("&amp;", "&"),
         ] {
             value = value.replace(entity, letter);

@@ -210,6 +210,7 @@ fn read_trc_table<'t>(
         table.width = table.width.max(filled.map_or(0, |last| last + 1));
         table.lines.push((line, cells));
     }
+    // Where points occur, commas part cells or thousands.
     table.has_commas &= !has_points;
     if table.has_commas {
         findings.push_note_finding(
@@ -376,6 +377,7 @@ pub fn write_trc_file(name: &str, markers: &MarkerTrack, offset: RecordingInstan
     }
     out.push_str("\n\n");
     for frame in 0..frames {
+        // The times of a file come back as they were written.
         let listed_text = match markers.marker_times() {
             FrameTimes::Listed(listed) if offset == RecordingInstant::RECORDING_START => {
                 listed.listed_seconds().column_text_at(frame)

@@ -39,6 +39,7 @@ pub(super) fn transcript_from_anvil(document: &AnvilDocument<'_>) -> (Annotation
         });
     }
     let placed = place_anvil_tracks(document, &mut findings);
+    // Anvil has no annotator of a track; projects state theirs as a property of the whole file.
     let coder = ["coder", "annotator"].iter().find_map(|wanted| {
         let is = |(key, text): &&(String, String)| key.eq_ignore_ascii_case(wanted) && !text.is_empty();
         transcript.properties.iter().find(is)
@@ -99,6 +100,8 @@ impl AnvilTierBuilder<'_> {
             });
         }
         let commented = track.elements.iter().any(|element| element.comment.is_some());
+        // Elements with one attribute are annotations of its values; with several, each attribute becomes a tier
+        // below them.
         let single = attributes.len() < 2;
         let kind = match (placed.is_point, single, attributes.first()) {
             (true, ..) => POINT_TIER_KIND,
@@ -111,6 +114,7 @@ impl AnvilTierBuilder<'_> {
             name => name.to_owned(),
         };
         let mut mains = Vec::with_capacity(placed.lanes.len());
+        // Elements of a track may overlap, annotations of a tier may not.
         for lane in 0..placed.lanes.len() {
             let main = self.tiers.len();
             mains.push(main);

@@ -173,6 +173,7 @@ impl<'d> TrackPlacing<'d> {
             let fits = parent.depth < MAX_TIER_NESTING;
             let below = match kind {
                 AnvilTrackKind::Singleton if fits => Some(TierStereotype::SymbolicAssociation),
+                // Deeper tiers, and times below symbols, are no tiers of ELAN: such tracks stand on their own.
                 AnvilTrackKind::Subdivision if fits && parent.is_alignable => Some(TierStereotype::TimeSubdivision),
                 _ => None,
             };
@@ -183,6 +184,7 @@ impl<'d> TrackPlacing<'d> {
         for (position, element) in track.elements.iter().enumerate() {
             let index_text = element.index.as_deref().map(str::trim);
             let index = index_text.map_or_else(|| position.to_string(), str::to_owned);
+            // Of two elements with one number the first is the one that others refer to.
             placed.index.entry(index).or_insert(position);
         }
         let placed_elements = match (kind, above) {
@@ -301,11 +303,13 @@ impl<'d> TrackPlacing<'d> {
         let mut all = Vec::with_capacity(track.elements.len());
         for (at, element) in track.elements.iter().enumerate() {
             let first = self.referred(above, element.start.as_deref());
+            // Without an end it spans one element.
             let last = self.referred(above, element.end.as_deref().or(element.start.as_deref()));
             let (Some((_, first)), Some((_, last))) = (first, last) else {
                 self.report_lost_element(track, at, "refers to no element that was read", findings);
                 continue;
             };
+            // The two may be named in either order.
             let start = first.span.span_start_instant().min(last.span.span_start_instant());
             let end = match covered.is_point {
                 true => first.span.span_start_instant().max(last.span.span_start_instant()),
@@ -347,6 +351,7 @@ impl<'d> TrackPlacing<'d> {
         for (at, element) in track.elements.iter().enumerate() {
             match (element.group, element.reference.as_deref()) {
                 (Some(group), _) => groups[group].1.push(at),
+                // Early versions write the reference at each element instead of at their group.
                 (None, Some(reference)) => loose.entry(reference).or_default().push(at),
                 (None, None) => self.report_lost_element(track, at, "refers to no element that was read", findings),
             }
@@ -421,6 +426,7 @@ impl<'d> TrackPlacing<'d> {
             let until = cuts.get(next).copied().flatten().unwrap_or(from);
             let length = i128::from(until.instant_micros()) - i128::from(from.instant_micros());
             for step in cut_index..next {
+                // Elements between two stated boundaries share their time evenly; products of 64 bits could overflow.
                 let share = length * (step - cut_index) as i128 / (next - cut_index) as i128;
                 all_cuts.push((from.shifted_instant(share as i64), step == cut_index));
             }
@@ -444,6 +450,7 @@ impl<'d> TrackPlacing<'d> {
             Some((_, above)) => self.lanes_below_elements(&found, above, placed),
         };
         if placed.below.is_none() {
+            // A track without elements still is a tier.
             placed.lanes = vec![0; of.iter().max().map_or(1, |last| last + 1)];
         }
         let of_times: &[usize] = if placed.below.is_none() { &of } else { &[] };
@@ -482,6 +489,7 @@ impl<'d> TrackPlacing<'d> {
         for it in found {
             let parent = it.parent.unwrap_or_default();
             let lane = self.placed[above].places[parent].map_or(0, |place| place.lane);
+            // Symbols have no times, so that two of one parent always stand in each other's way.
             let start = if symbolic {
                 RecordingInstant::RECORDING_START
             } else {

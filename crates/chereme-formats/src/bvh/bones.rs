@@ -40,6 +40,7 @@ impl BonePositions {
     pub fn new(hierarchy: &BvhHierarchy) -> Self {
         let count = hierarchy.joints.len();
         let mut below = vec![1_usize; count];
+        // Parents come first in the file, so that going back, each joint is complete when its parent counts it.
         for joint in (0..count).rev() {
             if let Some(parent) = hierarchy.joints[joint].parent {
                 below[parent] += below[joint];
@@ -91,6 +92,8 @@ impl BonePositions {
                 .first()
                 .is_some_and(|joint| joint.found.len() >= MAX_BONE_SAMPLE_FRAMES)
             {
+                // Half of the samples go and later ones come half as often, so that the samples stay even over any
+                // length.
                 self.step *= 2;
                 for placed in &mut self.joints {
                     let mut nth = 0;

@@ -521,6 +521,7 @@ fn read_parameter_value(body: &[u8], processor: C3dProcessor) -> Option<C3dParam
     let data = rest_bytes.get(..count.checked_mul(width)?)?;
     Some(match kind {
         -1 => {
+            // The first dimension is the length of each text.
             let width = sizes.first().copied().unwrap_or(1).max(1);
             let text = |bytes: &[u8]| readable(bytes).trim_matches(['\0', ' ']).to_owned();
             C3dParameterValue::Texts(data.chunks(width).map(text).collect())

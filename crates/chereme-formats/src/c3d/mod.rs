@@ -67,6 +67,7 @@ pub fn read_c3d(bytes: &[u8]) -> Result<(CapturedTracks, Vec<ImportFinding>), C3
             ),
         );
     }
+    // Frames are counted from 1, and cut captures keep their numbers.
     if document.first_frame != 1 {
         findings.push_note_finding(
             None,
@@ -189,11 +190,13 @@ impl C3dReader<'_> {
             residuals.push(i32::from(read.residual.unwrap_or(0)));
             match read.residual {
                 None => gaps.push(frame as u32),
+                // A point at the origin without a residual most often is a gap that was not marked.
                 Some(0) if read.at == [0.0; 3] => *nought += 1,
                 Some(_) => {}
             }
         }
         let gaps = ColumnGaps::from_gap_frames(gaps);
+        // The sign of the scale says whether the numbers are real or whole.
         let stated_scale = f64::from(document.scale.abs());
         let scale = if stated_scale.is_finite() && stated_scale > 0.0 {
             stated_scale
@@ -210,6 +213,7 @@ impl C3dReader<'_> {
             column.with_gaps(&gaps).ok()
         };
         let place: Option<Vec<FrameNumberColumn>> = axes.into_iter().map(column).collect();
+        // Vicon writes the subject before the name of each of its markers.
         let (group, name) = prefixes
             .iter()
             .find_map(|prefix| Some((*prefix, label.strip_prefix(prefix)?)))

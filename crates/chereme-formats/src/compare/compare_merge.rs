@@ -113,6 +113,7 @@ pub fn merge_transcripts(
 #[must_use]
 pub fn merge_two(mine: &AnnotationTranscript, theirs: &AnnotationTranscript) -> MergedTranscript {
     let matching = match_transcripts(mine, theirs);
+    // The shared part of both serves as the state from which they have come.
     let mut base = TranscriptPieces::pieces_from_transcript(theirs);
     let shared: BTreeSet<&str> = matching
         .back
@@ -430,10 +431,12 @@ impl TranscriptMergeWork<'_> {
         for all in by_tier.values_mut() {
             all.sort();
         }
+        // Changes of theirs do not stand in each other's way, as they fit together in their document.
         let came: BTreeSet<String> = self.brought.iter().map(|entry| entry.0.clone()).collect();
         let changes = diff_transcripts(self.base, self.mine);
         let mut changed: BTreeSet<String> = changes.added.into_iter().map(|annotation| annotation.id).collect();
         changed.extend(changes.moved.into_iter().map(|change| change.annotation.id));
+        // What mine keeps although theirs removed it is in the way, too.
         let gone = self.conflicts.iter().filter(|conflict| conflict.theirs.is_none());
         changed.extend(gone.filter_map(|conflict| Some(conflict.mine.as_ref()?.id.clone())));
         for (id, annotation, before) in std::mem::take(&mut self.brought) {
@@ -461,6 +464,7 @@ impl TranscriptMergeWork<'_> {
             }
             match &before {
                 None => {
+                    // Children of an addition that is taken back have no place without it.
                     for child in self.list_annotations_below(&id) {
                         let annotation = self.state_now(&child);
                         self.pieces.all.remove(&child);
@@ -490,8 +494,10 @@ impl TranscriptMergeWork<'_> {
         for (name, value) in &theirs.properties {
             let old = base.properties.iter().find(|property| property.0 == *name);
             match own.properties.iter_mut().find(|property| property.0 == *name) {
+                // Mine has not touched it, so that theirs counts.
                 Some(mine) if old == Some(&*mine) => value.clone_into(&mut mine.1),
                 Some(_) => {}
+                // It is missing because mine has removed it, unless the base has none either.
                 None if old.is_none() => own.properties.push((name.clone(), value.clone())),
                 None => {}
             }
@@ -514,6 +520,7 @@ impl TranscriptMergeWork<'_> {
                 Some(mine) if old == Some(&*mine) => mine.clone_from(vocabulary),
                 Some(mine) => {
                     let all_entries = vocabulary.entries.iter();
+                    // Both have changed the vocabulary: entries that theirs added are taken, and none is removed.
                     let more = all_entries.filter(|entry| {
                         let is_same =
                             |other_entry: &crate::transcript::VocabularyEntry| other_entry.values == entry.values;

@@ -72,6 +72,7 @@ fn by_id(
         let near = annotation_overlap_share(own_annotation, compared_annotation_at(b, *other)) > 0.0
             || has_same_times(own_annotation, compared_annotation_at(b, *other));
         let symbolic = is_symbolic(a, place.tier) && is_symbolic(b, other.tier);
+        // An id alone proves little: programs number annotations again when they save.
         if (same_tier && (near || symbolic)) || (near && same_value) {
             matching.pair_annotations(place, *other);
         } else if same_tier && same_value {
@@ -94,6 +95,7 @@ fn by_id(
         let Some(all) = equals.get(&(other.tier, own_annotation.value.as_str())) else {
             continue;
         };
+        // The list is sorted by start, so that only those within the tolerance are looked at.
         let earliest = own_annotation
             .span
             .span_start_instant()
@@ -300,6 +302,7 @@ fn by_place(
             below.entry(parent).or_default().push(place);
         }
     }
+    // A renamed annotation must not take the place of one that kept its value.
     for exact in [true, false] {
         for (index, it) in a.tiers[tier].annotations.iter().enumerate() {
             let place = AnnotationAddress { tier, index };

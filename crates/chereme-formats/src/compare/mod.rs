@@ -203,6 +203,7 @@ fn compare_annotation_pair(
     let before = to_compared_annotation(a, None, old);
     let symbolic = is_symbolic(b, new.tier);
     let parent = |annotation: &TranscriptAnnotation| annotation.parent;
+    // Times of symbolic annotations follow from their parents, so that only a parent or neighbour moves them.
     let elsewhere = matching.tiers[old.tier] != Some(new.tier);
     let moved = if symbolic {
         let above = parent(x).and_then(|place| matching.pairs.get(&place));

@@ -220,6 +220,7 @@ pub(super) fn open_face(text: &str, findings: &mut FindingTally) -> Result<Vec<C
     for (line, row) in full_table.rows {
         let number = &row[at];
         let earlier_face = faces.iter().position(|(known, _)| known == number);
+        // Rows of several people alternate, frame by frame.
         let face_index = match earlier_face {
             Some(known) => known,
             None if faces.len() == MOST_FACES => {
@@ -277,6 +278,7 @@ fn read_face_channels(table: &CurveTable, findings: &mut FindingTally) -> Result
         if !channels.units[at].is_empty() {
             continue;
         }
+        // Units by the names that OpenFace gives; its wiki lists them.
         channels.units[at] = match name.as_str() {
             "timestamp" => "s",
             "pose_Tx" | "pose_Ty" | "pose_Tz" => "mm",
@@ -305,6 +307,7 @@ fn read_face_channels(table: &CurveTable, findings: &mut FindingTally) -> Result
                 None => Vec::new(),
             };
             match rate_of(DEFAULT_TABLE_FPS) {
+                // Without times and numbers each row is the next frame.
                 Some(rate) if !numbers.is_sorted_by(|a, b| a < b) || numbers.is_empty() => CurveClock::Rate(rate),
                 _ => CurveClock::Seconds(numbers.iter().map(|number| number - numbers[0]).collect()),
             }

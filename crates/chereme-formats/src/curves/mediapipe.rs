@@ -145,6 +145,7 @@ pub(super) fn read_mediapipe_channels(text: &str, findings: &mut FindingTally) -
         );
     }
     for (row, frame) in frames.iter().enumerate() {
+        // A name that a frame lacks has a gap there.
         for column in &mut channels.columns {
             column.push(None);
         }
@@ -153,6 +154,7 @@ pub(super) fn read_mediapipe_channels(text: &str, findings: &mut FindingTally) -
                 Some(at) => at,
                 None => {
                     let names = channels.names.len() + 1;
+                    // Each new name makes a column of all frames, which hostile files could use to fill memory.
                     if names > MOST_NAMES || names.saturating_mul(frames.len()) > MOST_SCORES {
                         return Err(CurveError::Json(format!(
                             "it has more than {MOST_NAMES} names of scores, or {MOST_SCORES} scores"
@@ -174,6 +176,7 @@ pub(super) fn read_mediapipe_channels(text: &str, findings: &mut FindingTally) -
         ));
     }
     let stated_times: Option<Vec<f64>> = times.into_iter().collect();
+    // Times that stand still or go back are those of no film.
     channels.clock = match stated_times.filter(|times| times.windows(2).all(|pair| pair[1] > pair[0])) {
         Some(times) => CurveClock::Seconds(times),
         None => even_clock(&document, findings)?,

@@ -100,6 +100,7 @@ pub(super) fn read_packet_channels(bytes: &[u8], findings: &mut FindingTally) ->
     let bytes = match bytes.starts_with(&GZIP_FIRST_BYTES) {
         false => bytes,
         true => {
+            // Compressed bytes may grow a thousandfold.
             let mut limited = GzDecoder::new(bytes).take(MAX_DECOMPRESSED_BYTES + 1);
             if limited.read_to_end(&mut unpacked).is_err() {
                 findings.push_warning_finding(
@@ -119,6 +120,7 @@ pub(super) fn read_packet_channels(bytes: &[u8], findings: &mut FindingTally) ->
     let arkit = FaceSystem::find_face_system("arkit").map_or(&[][..], |system| &system.channels);
     let mut channels = CurveChannels::new(Vec::new());
     let mut seconds: Vec<f64> = Vec::new();
+    // A recording that broke off holds fewer packets than its head announces.
     while !bytes.0.is_empty() && seconds.len() < announced {
         let length = bytes.u32()? as usize;
         let number = seconds.len() + 1;
@@ -141,6 +143,7 @@ pub(super) fn read_packet_channels(bytes: &[u8], findings: &mut FindingTally) ->
                 channels.names.len()
             )));
         }
+        // Packets of a network may be repeated or overtake each other.
         if seconds.last().is_some_and(|last| *last >= time) {
             findings.push_warning_finding(
                 None,

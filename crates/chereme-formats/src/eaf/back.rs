@@ -36,6 +36,7 @@ pub fn eaf_document_from_transcript<'a>(
         ..EafDocument::default()
     };
     for vocabulary in &template.vocabularies {
+        // Global Signbank writes references inside the vocabulary, where EAF does not allow them.
         document.external_refs.extend(vocabulary.external_refs.iter().cloned());
     }
     document.vocabularies = transcript
@@ -284,6 +285,7 @@ fn to_raw_annotations<'a>(
     slots: &TranscriptSlots<'a>,
 ) -> Vec<eaf_raw::EafAnnotation<'a>> {
     let tier = &transcript.tiers[at];
+    // Only siblings of a subdivision name the one before them.
     let subdivided = tier.stereotype == Some(TierStereotype::SymbolicSubdivision);
     let before: HashMap<(Option<AnnotationAddress>, u32), &str> = if subdivided {
         tier.annotations
@@ -347,6 +349,7 @@ impl TranscriptSlots<'_> {
             uses[*end] += 1;
         }
         for (draft, _) in drafts.iter_mut().zip(uses).filter(|(_, uses)| *uses < 2) {
+            // A time may stay unset only between two annotations that share it.
             draft.millis.get_or_insert(draft.time.instant_millis());
         }
         let mut sorted: Vec<usize> = (0..drafts.len()).collect();

@@ -211,6 +211,7 @@ fn collect_annotation_ids<'d>(
 fn resolve_tier_references(doc: &EafDocument<'_>, findings: &mut FindingTally) -> ResolvedReferences {
     let mut names = HashMap::new();
     for (at, tier) in doc.tiers.iter().enumerate() {
+        // Of two tiers of one name the first is the parent that others name.
         if *names.entry(&*tier.id).or_insert(at) != at {
             findings.add_limited_warning("tier names given twice", doc.line_of_element(tier.at), || {
                 format!("the tier {:?} is there twice; this one gets a number", tier.id)
@@ -268,6 +269,7 @@ fn order_resolved_tiers(doc: &EafDocument<'_>, resolved: &mut ResolvedReferences
     for start in 0..count {
         let mut path = Vec::new();
         let mut current_tier = start;
+        // Climbs to the first tier that has its place, or to one met on the way: a circle.
         while !placed[current_tier] && !visiting[current_tier] {
             visiting[current_tier] = true;
             path.push(current_tier);
@@ -286,6 +288,7 @@ fn order_resolved_tiers(doc: &EafDocument<'_>, resolved: &mut ResolvedReferences
                 None => {}
             }
         }
+        // The path leads upwards, so that its end comes first.
         for tier in path.into_iter().rev() {
             placed[tier] = true;
             resolved.order.push(tier);
@@ -345,6 +348,8 @@ fn stereotypes(doc: &EafDocument<'_>, resolved: &mut ResolvedReferences, finding
                 .any(|annotation| matches!(annotation.anchor, AnnotationAnchor::Parent { .. }))
         };
         resolved.stereotypes.push(match stereotype {
+            // Without a usable type the annotations show whether they have times; subdivision and Included_In ask
+            // least of them.
             None if child && has_parents() => Some(TierStereotype::SymbolicSubdivision),
             None if child => Some(TierStereotype::IncludedIn),
             Some(_) if !child => None,

@@ -410,6 +410,7 @@ impl<'d> EafTierConverter<'d> {
         }
         let millis = self.times.millis[start].zip(self.times.millis[end]);
         let (start, end) = (self.times.millis[start].is_none(), self.times.millis[end].is_none());
+        // The flags of unset times follow their ends.
         let swapped = to < from;
         Some(TimedSpan {
             span: TimeSpan::span_between(from, to),
@@ -442,6 +443,7 @@ impl<'d> EafTierConverter<'d> {
         for annotation in &mut tier {
             let span = annotation.span;
             let next = spans.partition_point(|(other, _)| other.span_start_instant() <= span.span_start_instant());
+            // Spans of a tier do not overlap, so that only the neighbours of the start can share time with it.
             let near = &spans[next.saturating_sub(2)..(next + 1).min(spans.len())];
             let shared = |other: TimeSpan| {
                 let (start, end) = (
@@ -507,6 +509,7 @@ impl<'d> EafTierConverter<'d> {
                 let annotation = &mut self.tiers[at].annotations[place.index];
                 annotation.order = u32::try_from(k).unwrap_or(u32::MAX);
                 annotation.span = even_span_share(span, k, count);
+                // An only child has the time of its parent, as an association has.
                 annotation.timing = if count == 1 {
                     AnnotationTiming::Parent
                 } else {
@@ -578,6 +581,7 @@ impl<'d> EafTierConverter<'d> {
                     shown.push(format!("{other:?} and {id:?} at {}", span.span_start_instant()));
                 }
             }
+            // A long annotation may overlap several later ones.
             if last.is_none_or(|(last, _)| last.span_end_instant() < span.span_end_instant()) {
                 last = Some((span, id));
             }

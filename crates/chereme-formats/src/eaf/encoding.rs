@@ -185,6 +185,7 @@ impl EafEncoding {
                     match windows_1252_byte(character) {
                         Some(byte) => bytes.push(byte),
                         None => {
+                            // References of numbers are XML in any encoding.
                             let number = format!("&#x{:X};", u32::from(character));
                             bytes.extend(number.bytes());
                         }

@@ -64,6 +64,7 @@ fn patch_document_text(
         tiers,
         edits: TextEdits::default(),
     };
+    // Annotations name slots, so that the slots are settled first.
     let refs = work.patch_time_slots()?;
     work.patch_file_annotations(&refs)?;
     let (old, new) = (
@@ -275,6 +276,7 @@ fn match_patched_tiers(before: &AnnotationTranscript, after: &AnnotationTranscri
             .filter(|(tier, _)| !tiers.contains(&Some(*tier)))
             .max_by_key(|(tier, count)| (*count, usize::MAX - tier));
         tiers[old] = most
+            // A tier that was only renamed keeps most of its annotations.
             .filter(|(_, count)| 2 * count > tier.annotations.len())
             .map(|(tier, _)| tier);
     }

@@ -49,6 +49,7 @@ impl EafSpelling {
     pub(super) fn spelling_from_layout(layout: &EafLayout<'_>) -> Self {
         let text = layout.text;
         let lines = text.matches('\n').count();
+        // Files that several programs wrote mix the ends of lines; the most frequent one counts.
         let newline = match (2 * text.matches("\r\n").count() > lines, lines) {
             (true, _) => "\r\n",
             (false, 0) if text.contains('\r') => "\r",

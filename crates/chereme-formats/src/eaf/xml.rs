@@ -195,6 +195,7 @@ impl<'a> XmlCursor<'a> {
                 Event::End(end) => return self.close_xml_tag(end.name().0).map(|()| full_text),
                 Event::Text(piece) => {
                     let piece = piece.into_inner();
+                    // A bare & is no reference; it stays as text and is reported.
                     if memchr::memchr(b'&', piece.as_bytes()).is_some() {
                         self.entity("");
                     }
@@ -561,6 +562,7 @@ pub(super) fn decode_utf8_xml(bytes: &[u8]) -> Result<&str, EafError> {
         });
     }
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    // Bytes that look like these are no UTF-8, even if a declaration says so.
     for (mark, encoding) in [
         (&b"\xff\xfe"[..], "UTF-16"),
         (b"\xfe\xff", "UTF-16"),

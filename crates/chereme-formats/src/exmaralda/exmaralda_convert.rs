@@ -84,6 +84,7 @@ fn timeline_point_times(document: &ExmaraldaDocument<'_>, findings: &mut Finding
                 )
             });
         }
+        // A point that is out of order must not make all later ones look so.
         last = last.max(time.unwrap_or(i64::MIN));
         point_times.push(time);
     }
@@ -119,6 +120,7 @@ fn timeline_point_times(document: &ExmaraldaDocument<'_>, findings: &mut Finding
             let shared_time = match (before, next.and_then(|next| point_times[next])) {
                 (Some(from), Some(to)) => i128::from(from) + (i128::from(to) - i128::from(from)) * step / (many + 1),
                 (Some(from), None) => i128::from(from) + i128::from(UNTIMED_STEP_MICROS) * step,
+                // Before the first known time there is only the time since the beginning to share.
                 (None, Some(to)) => i128::from(to).max(0) * (step - 1) / many,
                 (None, None) => i128::from(UNTIMED_STEP_MICROS) * (step - 1),
             };
@@ -149,6 +151,7 @@ impl TranscriptionEvents<'_> {
         let speaker = tier.speaker.as_deref().filter(|name| !name.is_empty());
         let participant = speaker.map(|id| {
             let of = self.document.speakers.iter().find(|(known, _)| *known == id);
+            // The abbreviation is the name that stands on screen; the id is one of the file.
             let short = of
                 .map(|(_, short)| short.trim())
                 .filter(|abbreviation| !abbreviation.is_empty());

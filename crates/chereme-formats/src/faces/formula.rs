@@ -82,6 +82,7 @@ impl FaceFormula {
                 };
                 pairs.map(value).collect()
             }
+            // Trackers of several versions give a number by different channels; the first that is there counts.
             Self::Call(FormulaFunction::First, inner) => inner.iter().find_map(of)?,
             Self::Call(function, inner) => {
                 let all: Vec<Vec<f64>> = inner.iter().map(of).collect::<Option<_>>()?;
@@ -93,6 +94,7 @@ impl FaceFormula {
                     FormulaFunction::Clamp => all[0][frame].max(all[1][frame]).min(all[2][frame]),
                     FormulaFunction::Atan2 => all[0][frame].atan2(all[1][frame]),
                 };
+                // The largest and the least of numbers pass over gaps, which would then look like values.
                 let gap = |frame: usize| row(frame).any(f64::is_nan);
                 let values = (0..frames).map(|at| if gap(at) { f64::NAN } else { value(at) });
                 values.collect()

@@ -205,6 +205,7 @@ impl FaceSystem {
                 continue;
             }
             let mut values: Vec<Option<f64>> = curve.values.column_values().collect();
+            // A number of which the tracker itself is not sure is worse than one between its neighbours.
             for (value, _) in values.iter_mut().zip(&unsure).filter(|(_, unsure)| **unsure) {
                 *value = None;
             }
@@ -218,6 +219,7 @@ impl FaceSystem {
         let mut units = Vec::new();
         if self.shares {
             let of_head = Self::named_in(self.head.values().chain(self.place.values()));
+            // Angles beyond 1 are usual, and say nothing about whether shapes are in percent.
             let (turns, mut shapes) = columns.into_iter().partition(|(name, _)| of_head.contains(name));
             units.extend(from_percent(&mut shapes));
             columns = turns;
@@ -242,6 +244,7 @@ impl FaceSystem {
         let given_channels = std::array::from_fn(|at| numbers[at].is_some());
         let mut head: Option<Vec<[f64; 3]>> = three(&self.head, ["pitch", "yaw", "roll"]);
         if let Some(head) = &mut head {
+            // Angles of a head beyond half a turn must be degrees.
             units.extend(from_degrees(head, self.stated_unit(curves)));
         }
         let still = head

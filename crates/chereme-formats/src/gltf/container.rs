@@ -43,12 +43,14 @@ pub(super) fn load_gltf_buffers(
     let mut total = 0_usize;
     let bytes = |(at, buffer): (usize, &GltfBuffer)| {
         let bytes = match &buffer.uri {
+            // Only the first buffer may stand for the binary chunk of a GLB.
             None => binary.filter(|_| at == 0).map(<[u8]>::to_vec).unwrap_or_default(),
             Some(uri) => match uri.strip_prefix("data:") {
                 Some(data) => {
                     let (_, text) = data.split_once(";base64,").ok_or_else(|| external_file_error(uri))?;
                     decode_base64(text).ok_or_else(|| external_file_error(uri))?
                 }
+                // A document of strangers must not read files elsewhere.
                 None if is_plain_name(uri) => beside(&unescaped(uri)).ok_or_else(|| external_file_error(uri))?,
                 None => return Err(external_file_error(uri)),
             },

@@ -68,6 +68,7 @@ struct MovedJointSamplers {
 
 fn build_gltf_scene(data: &GltfData<'_>, rig: GltfRig, findings: &mut FindingTally) -> Result<BodyScene, GltfError> {
     let document = data.document;
+    // VRM 0 looks along -Z, against glTF and VRM 1.
     let vrm0 = document.extensions.get("VRM").is_some();
     let axes = if vrm0 { "+Y,-X" } else { "+Y,+X" };
     let convention = SpaceConvention {
@@ -109,6 +110,7 @@ fn build_gltf_scene(data: &GltfData<'_>, rig: GltfRig, findings: &mut FindingTal
             .chain(weights.iter().map(|weight| &weight.keys)),
         findings,
     );
+    // A few keys far apart in time can make any number of frames; long files may have more of them.
     let most = MOST_POSITIONS.saturating_add(data.count_buffer_bytes());
     let wide = weights.iter().map(|weight| weight.keys.width).sum::<usize>();
     let fits = |grid: &GltfFrameGrid| grid.frames.saturating_mul(rig.joints.len() + wide) <= most;
@@ -133,6 +135,7 @@ fn build_gltf_scene(data: &GltfData<'_>, rig: GltfRig, findings: &mut FindingTal
         },
         translations: moved.translation.as_ref().map(|keys| {
             grid.gltf_frame_times()
+                // Skeletons have no scale, so that the scale of nodes above goes into the places.
                 .map(|time| keys.place_at(time) * *scale)
                 .collect()
         }),
@@ -243,6 +246,7 @@ fn read_sampler_keys(
     {
         return Err(GltfError::Packed(extension.clone()));
     }
+    // Weights of three or four targets are told apart from vectors by the shape of their accessor.
     let is_weights = !matches!(width, 3 | 4)
         || data
             .document
@@ -347,6 +351,7 @@ fn gltf_morph_curves(
     for moved in weights {
         match face.get(&moved.node) {
             Some(FaceNode::Expression(name)) => {
+                // VRM animations move a node along x instead of a weight.
                 let weight = |time| moved.keys.place_at(time).x as f32;
                 let values = grid.gltf_frame_times().map(weight).collect();
                 curves.push(ScalarCurve::new(

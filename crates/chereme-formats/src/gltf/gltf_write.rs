@@ -135,6 +135,7 @@ pub fn write_glb(clip: &Clip, about: &GlbDescription) -> Result<Vec<u8>, TooFar>
     let mut roots = vec![0];
     if mesh.is_some() {
         nodes.push(json!({"name": "bones", "mesh": 0, "skin": 0}));
+        // A skinned mesh belongs at the root: its own place in the tree is ignored.
         roots.push(skeleton.len());
     }
     let rate = clip.clip_frame_rate();
@@ -299,6 +300,7 @@ fn skeleton_bone_mesh(skeleton: &Skeleton, parts: &mut GlbParts) -> Option<Value
     let mut bone = |joint: usize, from: DVec3, to: DVec3| {
         let along = to - from;
         let length = along.length();
+        // Corners are counted with 16 bits.
         if length < MIN_MESH_BONE_METRES || places.len() / 3 + 6 > usize::from(u16::MAX) {
             return;
         }

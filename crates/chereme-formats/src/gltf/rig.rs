@@ -68,6 +68,7 @@ impl GltfRig {
             return Err(GltfError::gltf_element_error("nodes", at, "is below itself"));
         }
         let mut kept = mark_kept_nodes(document, &parents, &document.face_nodes())?;
+        // A file of a face alone has nothing else to show.
         if !kept.contains(&true) {
             kept = self::mark_kept_nodes(document, &parents, &BTreeMap::new())?;
         }
@@ -89,6 +90,7 @@ impl GltfRig {
             findings.push_note_finding(None, format!("{} trees of joints were put below one root", roots.len()));
         }
         let top = (roots.len() > 1).then_some(0);
+        // Taken from the end, so that children keep the order of the file; recursion could run out of stack.
         let mut open: Vec<(usize, Option<usize>, f64)> = roots.iter().rev().map(|root| (*root, top, 1.0)).collect();
         while let Some((at, parent, above)) = open.pop() {
             let (translation, rotation, scale) = transform(&nodes[at]);
@@ -100,6 +102,7 @@ impl GltfRig {
                     "has a place that is no number",
                 ));
             }
+            // The scale of a node applies to what is below it, and not to its own place.
             let below = above * uniform(scale, at, &nodes[at], findings);
             rig.joints.push(SkeletonJoint {
                 rest: rotation,
@@ -207,6 +210,7 @@ fn mark_kept_nodes(
             if steps > parents.len() {
                 return Err(GltfError::gltf_element_error("nodes", node, "is its own ancestor"));
             }
+            // All nodes above a marked one are marked already.
             if *mark && steps > 1 {
                 break;
             }

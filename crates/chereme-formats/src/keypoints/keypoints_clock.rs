@@ -56,6 +56,7 @@ impl KeypointClock {
             false => self.millis.clone(),
         };
         let offset = first_row_offset(&millis, findings);
+        // Times of frames say more than a rate in the head, which often is that of another export.
         let stated = even_keypoint_rate(&millis).or_else(|| self.rate.and_then(rate_of));
         if let (Some(known), Some(stated)) = (known, stated)
             && known != stated

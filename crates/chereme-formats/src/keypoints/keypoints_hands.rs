@@ -54,6 +54,7 @@ pub(super) fn add_hand_landmarks(
         return false;
     }
     if hands.len() != sides.len() || sides.iter().any(Option::is_none) {
+        // A single hand without a side cannot change places with another.
         if hands.len() > 1 {
             findings.add_limited_finding("hands without a side", || {
                 ImportFinding::new_warning_finding(

@@ -230,6 +230,7 @@ impl KeypointReader {
                 };
                 (name.to_owned(), cloud)
             });
+            // The findings are lent to each cloud in turn.
             for (name, cloud) in people.chain(marks).collect::<Vec<_>>() {
                 let markers = cloud.cloud_to_markers(times.clone(), film.size, &mut self.findings)?;
                 let Some(markers) = markers else { continue };

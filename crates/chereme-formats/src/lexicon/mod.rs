@@ -438,6 +438,7 @@ fn report_value_slips(lexicon: &SignLexicon, findings: &mut FindingTally) {
             .collect();
         for (value, plain, count) in folded.iter().filter(|(_, _, count)| *count <= MAX_RARE_USES) {
             let common = folded.iter().find(|(other, near, uses)| {
+                // A slip is rare beside the value that was meant; two usual values are two values.
                 *uses >= count * 10 && other != value && (near == plain || one_letter_off(plain, near))
             });
             let Some((common, _, uses)) = common else {

@@ -76,6 +76,7 @@ fn slpaa_sign_row(sign: &Value, level: &Map<String, Value>) -> Vec<String> {
     let lemma = named("lemma");
     let id_gloss = named("idgloss");
     let glosses = [named("gloss"), lemma.clone(), id_gloss.clone()];
+    // The first name that is filled in stands for the sign.
     let gloss = glosses.into_iter().find(|name| !name.is_empty());
     let hands = modules(sign, "cfg");
     let shapes = |hand: usize| value_sequence_text(&hands, hand, nearest_module_handshape);
@@ -233,6 +234,7 @@ fn angles_from_symbols(symbols: &[String; 35]) -> Option<(HandAngles, [bool; Han
             }
         }
     }
+    // Nine of twelve joints are three of four fingers.
     if given_angles.iter().filter(|known| **known).count() < 9 {
         return None;
     }
@@ -245,6 +247,8 @@ fn angles_from_symbols(symbols: &[String; 35]) -> Option<(HandAngles, [bool; Han
     };
     if let Some(wide) = wide {
         let between = |beside: [f64; 3], away: [f64; 3]| [0, 1, 2].map(|n| beside[n] + (away[n] - beside[n]) * wide);
+        // Degrees of a thumb beside and away from the hand, opposed or lateral, as the inventory of handshapes has
+        // them.
         let [radial, palmar, opposition] = match symbols[2].as_str() {
             "O" => between([16.0, 55.0, 16.0], [34.0, 58.0, 60.0]),
             _ => between([12.0, 2.0, 0.0], [60.0, 8.0, 0.0]),
@@ -254,6 +258,7 @@ fn angles_from_symbols(symbols: &[String; 35]) -> Option<(HandAngles, [bool; Han
         hand.thumb.opposition = opposition.to_radians();
         given_angles[..3].fill(true);
     }
+    // Degrees of the thumb's joints in a fist.
     for (joint, most) in [50.0, 70.0].into_iter().enumerate() {
         if let Some(share) = bend_from_symbol(&symbols[4 + joint]) {
             hand.thumb.flexion[joint] = f64::to_radians(share * most);

@@ -77,6 +77,7 @@ pub(crate) fn arrange_tier_lanes(times: &mut [TimedAnnotation]) -> (Vec<usize>, 
             }
         };
         let (end, before) = &mut lanes[lane];
+        // A point lasts until the next annotation of its lane begins, at most its usual length.
         if times[*before].is_point {
             lengthen_timed_point(&mut times[*before], span.span_start_instant());
         }

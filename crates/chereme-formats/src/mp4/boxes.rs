@@ -33,6 +33,7 @@ pub(super) fn top_level_boxes(input: &mut (impl Read + Seek)) -> Result<(Vec<Box
         let size = u64::from(u32::from_be_bytes([head[0], head[1], head[2], head[3]]));
         let kind = [head[4], head[5], head[6], head[7]];
         let (header, size) = match size {
+            // A size of 0 means to the end of the file, and 1 that a size of 64 bits follows (ISO 14496-12, 4.2).
             0 => (8, end - box_start),
             1 if end - box_start >= 16 => {
                 input.read_exact(&mut head[8..])?;
@@ -49,6 +50,7 @@ pub(super) fn top_level_boxes(input: &mut (impl Read + Seek)) -> Result<(Vec<Box
             kind,
             at: box_start,
             from: box_start + header,
+            // Of a film that is still being written, the last box is cut short and readable all the same.
             to: to.unwrap_or(end),
         });
         let Some(to) = to else {

@@ -85,6 +85,7 @@ pub(super) fn add_fragment_frames(
                 1 => tfdt.box_u64_at(4)?,
                 _ => u64::from(tfdt.box_u32_at(4)?),
             };
+            // Without it the fragment goes on where the one before ended.
             clock.0 = i64::try_from(time).unwrap_or(i64::MAX);
         }
         let mut next = base;

@@ -211,6 +211,7 @@ fn read_point_tracks(
     let (times, offset) = points_clock::infer_row_times(&rows, &layout, wanted, findings)?;
     let wide = layout.coordinates_per_point();
     let names = unique_point_names(&layout, findings);
+    // Points of pictures may truly lie in the corner 0, 0; in a room the origin is a gap.
     if wide == 3 {
         let shown: Vec<String> = names.iter().map(|(_, name)| name.clone()).collect();
         open_noughts(&shown, &mut rows.places, findings);
@@ -236,6 +237,7 @@ fn read_point_tracks(
     let space = space::infer_point_space(&layout, &made, findings);
     let capture = match layout.quality {
         Some(QualityMeaning::Confidence) => CaptureMethod::Estimated,
+        // Points of pictures come from an estimate, whatever the table says.
         _ if wide == 2 => CaptureMethod::Estimated,
         _ => CaptureMethod::Measured,
     };

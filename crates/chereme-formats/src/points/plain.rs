@@ -185,6 +185,7 @@ pub(super) fn read_plain_layout(
         .filter(|(line, _)| *line > titles.line)
         .map(|(line, text)| (*line, split_line_cells(text, titles.delimiter)))
         .collect();
+    // A column counts as text if one of its first cells is no number.
     let is_text = |at: usize| {
         rows.iter().any(|(line, row)| {
             let cell = row.get(at).copied().unwrap_or_default();

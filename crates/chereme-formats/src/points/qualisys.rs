@@ -153,6 +153,7 @@ fn of_bodies(
         let axis_columns = (0..titles.len()).filter(|at| ends(titles[*at], axis));
         axis_columns.collect::<Vec<usize>>()
     });
+    // Bodies have no columns of their own kind: the axes must be there once for each.
     if names.is_empty() || columns.iter().any(|held| held.len() != names.len()) {
         return Err(PointTableError::Bodies { line });
     }

@@ -200,6 +200,7 @@ fn collect_vicon_points(names: &[&str], titles: &[&str], findings: &mut FindingT
             others += usize::from(!title.is_empty() && !title.to_lowercase().starts_with("sub"));
             continue;
         };
+        // An axis that is there already begins the next marker, even without a name.
         let is_new = !name.is_empty() || found_places.last().is_none_or(|(_, axes)| axes[axis].is_some());
         if is_new {
             found_places.push((PointColumns::with_grouped_name(name, Vec::new()), [None; 3]));

@@ -157,6 +157,7 @@ pub fn guess_roles(tiers: &[TierRoleEvidence<'_>], mapping: &TierMapping) -> Vec
         if let (true, None, Some((hand, name))) = (manual, guesses[at].hand, above) {
             let guess = &mut guesses[at];
             guess.hand = Some(hand);
+            // A hand from the tier above is a little less sure than one in the name.
             guess.confidence -= 0.1;
             guess.why = format!("{}; {hand} as the tier above, {name:?}", guess.why);
         }
@@ -186,6 +187,7 @@ fn share_track_role(tiers: &[TierRoleEvidence<'_>], guesses: &mut [TierGuess]) {
                 }
             }
         }
+        // A role that a person stated stays where it is.
         if !tiers[track].is_track || guesses[track].confidence >= 1.0 {
             continue;
         }

@@ -89,6 +89,7 @@ fn read_signs(parent: &SigmlElement<'_>, findings: &mut FindingTally, entries: &
         }
         match &*child.name {
             "sigmlsection" | "sigmlstream" => read_signs(child, findings, entries),
+            // Files put together by hand hold whole files.
             name if name.eq_ignore_ascii_case("sigml") => {
                 let mut node = AttributeReader::new(child, findings);
                 node.attribute_text("base_uri");

@@ -419,6 +419,7 @@ fn decode_sigml_bytes(bytes: &[u8]) -> Result<&str, SigmlError> {
             line,
         }
     })?;
+    // Control characters are no XML in any spelling, and some readers pass over them.
     match text.find(|c| !is_xml(c)) {
         Some(at) => Err(SigmlError::NotXml {
             line: sigml_line_at(bytes, at),

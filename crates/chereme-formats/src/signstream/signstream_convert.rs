@@ -133,6 +133,7 @@ impl<'d> SignstreamRows<'d> {
                         continue;
                     };
                     let line = || document.signstream_line_at(item.at);
+                    // Times of items count from the start of their utterance.
                     let [from, to] = [from, to].map(|offset| instant_from_micros(start.saturating_add(offset)));
                     let name = self.fields.get(track.field.trim()).map_or("", |field| &field.0.name);
                     let time = TimedAnnotation::timed_between_instants(from, to, name, line, findings);
@@ -206,6 +207,7 @@ fn build_signstream_tiers(
     findings: &mut FindingTally,
 ) -> Vec<TranscriptTier> {
     let people: BTreeSet<&str> = rows.iter().map(|((person, _), _)| *person).collect();
+    // Tiers name the person only where there is more than one.
     let several = people.iter().filter(|person| !person.is_empty()).count() > 1;
     let (mut names, mut ids) = (UniqueNames::default(), UniqueNames::default());
     let mut all = Vec::new();

@@ -171,6 +171,7 @@ impl TableCells {
             .zip(text.lines())
             .filter(|(line, text)| *line > above && !text.trim().is_empty());
         let (first_line, first) = filled.next().ok_or(TableError::Empty)?;
+        // Spreadsheets write their delimiter into a first line `sep=;`.
         let (above, delimiter) = match separator(first) {
             Some(delimiter) => (first_line, delimiter),
             None => (above, sniff(first)),
@@ -209,6 +210,7 @@ impl TableCells {
                 }
                 Some(header) => {
                     let width = header.len();
+                    // Each missing cell is filled in, so that a wide header over short rows could fill memory.
                     lacking += width.saturating_sub(cells.len());
                     if lacking > MAX_PADDED_CELLS {
                         return Err(TableError::Ragged { line, lacking, width });
@@ -271,6 +273,7 @@ pub(crate) fn decode_table_bytes<'b>(bytes: &'b [u8], findings: &mut FindingTall
         Ok(text) => printable(text.into()),
         Err(error) => {
             let line = table_line_at(bytes, error.valid_up_to());
+            // Each byte is a letter in Windows-1252, so that this always reads.
             let western_text: String = bytes
                 .iter()
                 .map(|byte| windows_1252::decode_windows_byte(*byte))

@@ -69,6 +69,7 @@ pub(super) fn split_table_rows(
     findings: &mut FindingTally,
 ) -> Vec<TableRow> {
     let bytes = text.as_bytes();
+    // Programs that write tabs mostly write no quotation marks, which are then part of the text.
     let strict = delimiter == b'\t' && !has_quoted_text(text, delimiter);
     let mut rows: Vec<TableRow> = Vec::new();
     let (mut at, mut line, mut count) = (0, 1u64, 0);

@@ -132,6 +132,7 @@ fn read_grid_annotations(
         let start = items[at].0.span_start_instant();
         let (before, item) = items[at - 1];
         if before.span_end_instant() > start {
+            // A point was given a length, which the next one may shorten without a word.
             items[at - 1].0 = TimeSpan::span_between(before.span_start_instant().min(start), start);
             if !tier.is_points {
                 findings.add_limited_warning("overlapping intervals", item.line, || {
@@ -220,6 +221,7 @@ fn grid_tier(
     let mut filled_end = first;
     for annotation in annotations {
         let (start, end) = (
+            // Praat wants each tier filled from end to end without overlaps.
             annotation.span.span_start_instant().max(filled_end),
             annotation.span.span_end_instant(),
         );

@@ -154,6 +154,7 @@ impl<'t> GridValues<'t> {
             if self.rest.is_empty() {
                 return None;
             }
+            // Praat takes the rest of a line after ! for a comment.
             if self.rest.starts_with('!') {
                 let end = self.rest.find('\n').unwrap_or(self.rest.len());
                 self.skip_grid_bytes(end);
@@ -170,6 +171,7 @@ impl<'t> GridValues<'t> {
                 "<absent>" => return Some(GridValue::Flag(false)),
                 _ => {}
             }
+            // Words between values are there for readers only, even `inf` and `nan`, which would parse as numbers.
             let begins = word.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '-' | '+' | '.'));
             if let Some(number) = word.parse().ok().filter(|_| begins) {
                 return Some(GridValue::Number(number));
@@ -269,6 +271,7 @@ fn parse_raw_grid(values: &mut GridValues<'_>, findings: &mut FindingTally) -> R
         }
         grid.tiers.push(tier);
     }
+    // Two files that were joined begin with a whole one.
     if values.next().is_some() {
         let line = values.line;
         findings.add_limited_warning(

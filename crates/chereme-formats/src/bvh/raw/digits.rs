@@ -142,11 +142,13 @@ fn number_at(text: &[u8]) -> Option<(i64, u8, usize)> {
     let sign = usize::from(window[0] == b'-');
     let minus = minus_one_if(sign == 1);
     let (whole_word, whole_digits) = count_leading_digits(load_window_word(window, sign));
+    // Eight bytes were all digits: the number may go on beyond them, and the slow reader takes it.
     if whole_digits == 8 {
         return None;
     }
     let whole_number = eight((whole_word << (56 - 8 * whole_digits)) << 8);
     let point = sign + whole_digits;
+    // The mask spares a check of bounds; the point lies within the first nine bytes.
     if window[point & 15] != b'.' {
         let good = whole_digits > 0 && is_end(window[point & 15]);
         return good.then(|| (apply_number_sign(whole_number, minus), 0, point));

@@ -68,6 +68,7 @@ pub(super) fn read_header<R: Read>(
     let first_line = source.byte_source_line();
     let mut counted = false;
     while source.skip_blanks()?.is_some_and(|byte| byte.is_ascii_alphabetic()) {
+        // A letter after both statements begins no further one, such as the n of `nan`.
         if counted && header.frame_time.is_some() {
             break;
         }
@@ -79,6 +80,7 @@ pub(super) fn read_header<R: Read>(
         if has_colon {
             source.take_source_byte();
         }
+        // Some programs forget the blank, and their files are written back as they were.
         let spaced = matches!(source.peek_source_byte()?, Some(b' ' | b'\t'));
         while matches!(source.peek_source_byte()?, Some(b' ' | b'\t')) {
             source.take_source_byte();
@@ -103,6 +105,7 @@ pub(super) fn read_header<R: Read>(
     if !counted {
         oddities.note_oddity(BvhOddity::NoFrameCount, first_line, "");
     }
+    // Errors about the missing time name the line where it should stand.
     if header.frame_time.is_none() {
         header.frame_time_line = source.byte_source_line();
     }

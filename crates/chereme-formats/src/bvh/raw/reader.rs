@@ -231,6 +231,7 @@ impl<R: Read> BvhReader<R> {
             return Err(self.width_error(line, 1));
         }
         if matches!(number, FileNumber::Text(_)) {
+            // Long numbers are kept as text, which hostile files could use to fill memory.
             self.long_numbers += token.len();
         }
         if self.long_numbers > LONG_NUMBERS_LIMIT {

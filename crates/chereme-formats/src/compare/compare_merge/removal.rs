@@ -117,6 +117,7 @@ impl TranscriptMergeWork<'_> {
                 };
                 let own_family = families.get(&(name.as_str(), above.as_str()));
                 let all: BTreeSet<&str> = ids.iter().map(String::as_str).collect();
+                // A family that either side changed otherwise keeps the order that the merge gave it.
                 if own_family == Some(&all) && self.keeps_order(&chain) {
                     ranks.extend(ids.into_iter().zip((0u32..).map(f64::from)));
                 }

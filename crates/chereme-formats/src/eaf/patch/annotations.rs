@@ -38,8 +38,10 @@ impl<'w> EafPatchWork<'w, '_> {
                     };
                     self.patch_kept_annotation(&kept, raw, refs.get(&new))?;
                 }
+                // It goes with its tier.
                 None if self.tiers[old.tier].is_none() => {}
                 None => {
+                    // Each annotation stands in an element of its own, which goes with it.
                     let alone = self.layout.elements[around].children.len() == 1;
                     let span = self.layout.element_line_span(if alone { around } else { element });
                     self.edits.remove_text_span(span);
@@ -60,6 +62,7 @@ impl<'w> EafPatchWork<'w, '_> {
                     continue;
                 }
                 let block = self.render_new_annotation(place, refs, &next, &indent)?;
+                // New ones follow the last annotation that stands in the file before them.
                 added.entry(last).or_default().push(block);
             }
             for (after, blocks) in added {
@@ -164,6 +167,7 @@ impl<'w> EafPatchWork<'w, '_> {
         refs: &SlotReferences,
     ) -> Option<()> {
         let order = self.from.iter().flatten();
+        // Tiers in another order are no small change: the file is written afresh.
         if !order.is_sorted() {
             return None;
         }
@@ -204,6 +208,7 @@ impl<'w> EafPatchWork<'w, '_> {
                 blocks.push_str(&format!("{}{inner}{block}", self.style.newline));
             }
             if !blocks.is_empty() {
+                // The tier was rendered without annotations, as an empty element.
                 let tag = text.strip_suffix(self.style.empty_tag_end())?;
                 text = format!("{tag}>{blocks}{}{indent}</TIER>", self.style.newline);
             }

@@ -55,6 +55,8 @@ impl EafPatchWork<'_, '_> {
             let both = [index.get(&**start), index.get(&**end)];
             if let [Some(from), Some(to)] = both
                 && moved != [None; 2]
+                // Ends that the file has the wrong way round were exchanged when it was read, and moving one of them
+                // would move the other.
                 && slots.values[*from].zip(slots.values[*to]).is_some_and(|(a, b)| a > b)
             {
                 return None;
@@ -72,6 +74,7 @@ impl EafPatchWork<'_, '_> {
             }
         }
         let mut order: Vec<usize> = (0..users.len()).collect();
+        // Parts of a subdivision take over slots of their parents, which must be settled before.
         order.sort_by_key(|slot| users[*slot].iter().any(|user| self.divides(user.place)));
         for slot in order {
             slots.removed[slot] = used[slot] && users[slot].is_empty();
@@ -79,6 +82,7 @@ impl EafPatchWork<'_, '_> {
         }
         self.place_added(&mut slots, &mut refs)?;
         let milliseconds = self.document.header.time_units.as_deref();
+        // Times are written in milliseconds.
         if milliseconds.is_some_and(|units| units != "milliseconds") && slots.is_changed() {
             return None;
         }
@@ -129,6 +133,7 @@ impl EafPatchWork<'_, '_> {
         slots: &mut FileTimeSlots,
         refs: &mut SlotReferences,
     ) -> Option<()> {
+        // A slot stays where it is as long as one of its annotations does.
         let mut stays = users.iter().any(|user| user.moved.is_none());
         let mut groups: BTreeMap<i64, Vec<&SlotUser>> = BTreeMap::new();
         for user in users {
@@ -146,6 +151,7 @@ impl EafPatchWork<'_, '_> {
             });
             let name = match shared {
                 Some(name) => name,
+                // Nobody else needs the slot any more, so that it moves instead of a new one.
                 None if !stays => {
                     stays = true;
                     slots.values[slot] = Some(time);
@@ -235,6 +241,7 @@ impl EafPatchWork<'_, '_> {
             }
             if let Some(time) = slots.values[slot].filter(|_| slots.retimed[slot]) {
                 if *gone {
+                    // It is written again where its time belongs.
                     fresh.push((slots.names[slot].clone(), time));
                 } else {
                     let time = time.to_string();

@@ -207,6 +207,7 @@ impl ChangeTableColumns {
             if from.is_empty() || to.is_empty() {
                 continue;
             }
+            // One time with a point or a unit proves that the others are seconds.
             if !is_bare(from) || !is_bare(to) || from.contains('.') || to.contains('.') {
                 return Ok(());
             }

@@ -110,6 +110,7 @@ pub fn read_change_table(
         Some(columns) => {
             let cells = std::mem::take(&mut table.header);
             let line = table.header_line;
+            // What was taken for titles is the first annotation.
             table.rows.insert(0, RawRow { line, cells });
             findings.add_limited_note(
                 "no titles",
@@ -134,6 +135,7 @@ pub fn read_change_table(
         Err(fault) => annotations.faults.push(fault),
     };
     for raw in &table.rows {
+        // A row is one annotation, or one for each column of a tier.
         if columns.tiers.is_empty() {
             take(read_change_row(raw, &columns, unit, None));
         }
@@ -177,6 +179,7 @@ fn read_change_row(
         .and_then(|column| raw.cells.get(column))
         .filter(|text| !text.is_empty());
     let start = moment(2, columns.start)?;
+    // A stated end counts more than a duration, which may be rounded.
     let mut end = moment(3, columns.end)?;
     if end.is_none() {
         end = match (start, moment(3, columns.duration)?) {
