@@ -320,6 +320,7 @@ impl ProgressListener for CommandProgressBar {
         }
         self.bar.set_length(step.total.unwrap_or(step.done));
         self.bar.set_position(step.done);
+        // Setting a message redraws the bar, which steps of one task come too often for.
         if self.bar.message() != step.task {
             self.bar.set_message(step.task.to_owned());
         }

@@ -12,6 +12,7 @@ fn split_command_words(line: &str) -> Vec<String> {
     let mut open = false;
     for c in line.chars() {
         match c {
+            // A brace before a quoted key is JSON that the command takes, and no blank of a format.
             '{' if !line.contains("\": ") => {
                 open = true;
                 plain.push('X');

@@ -432,6 +432,7 @@ fn replace_annotation_texts(
     else {
         return Ok(());
     };
+    // Clap refuses both together, so that their order does not matter.
     let find = match (regex, whole) {
         (true, _) => ValueSearch::from_value_pattern(find)?,
         (_, true) => ValueSearch::Whole(find.clone()),
@@ -459,6 +460,7 @@ fn replace_annotation_texts(
     if more > 0 {
         output.filled_line("  and {n} more", &[&more])?;
     }
+    // Of a dry run the same list is a promise, and must not sound like a deed.
     let word = if *dry_run { "would change" } else { "changed" };
     let count = output.format_counted_noun(done.changed, "annotations");
     output.write_output_line(format!("{word}: {count}"))?;

@@ -26,6 +26,7 @@ pub(crate) struct CheckArgs {
 
 pub(super) fn run(cli: &CommandLine, args: &CheckArgs, output: &mut CommandOutput) -> Result<ExitCode> {
     let mut corpus = cli.open_cli_corpus(&args.corpus)?;
+    // Rows that were changed by hand are accepted first, or the check would report them again.
     if args.accept {
         corpus.accept_rows()?;
     }
@@ -58,6 +59,7 @@ pub(super) fn run(cli: &CommandLine, args: &CheckArgs, output: &mut CommandOutpu
         let count = output.format_counted_noun(questions, "questions");
         output.filled_line("not damage, but against the rules of tiers: {count}", &[&count])?;
     }
+    // Scripts ask the exit code whether a corpus is sound.
     let ok = report.ok;
     output.set_json_document(report)?;
     Ok(if ok { ExitCode::SUCCESS } else { ExitCode::FAILURE })

@@ -120,6 +120,7 @@ pub(super) fn run(cli: &CommandLine, args: &ChooseArgs, output: &mut CommandOutp
         .first()
         .map(|candidate| candidate.token.clone())
         .unwrap_or_default();
+    // The best performance is used, unless one of the list is named.
     let token = args.chosen.clone().unwrap_or(first);
     let made = corpus.animate_choice(&choice, &token, gloss)?;
     output.line_as_is(&format!("{gloss} = {}", made.recipe))?;

@@ -64,6 +64,7 @@ pub(super) fn write_man_pages(_: &CommandLine, args: &ManArgs, output: &mut Comm
         Ok(())
     };
     for command in root_command.get_subcommands() {
+        // Clap wants names that live as long as the program, which ends after these few.
         let name: &'static str = format!("chereme-{}", command.get_name()).leak();
         write(command.clone().name(name))?;
     }

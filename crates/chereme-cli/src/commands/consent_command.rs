@@ -66,6 +66,7 @@ fn audience(text: &str) -> std::result::Result<ParsedAudience, String> {
 
 pub(super) fn run(cli: &CommandLine, args: &ConsentArgs, output: &mut CommandOutput) -> Result<()> {
     let mut corpus = cli.open_cli_corpus(&args.corpus)?;
+    // What is said of one kind of content counts more than what is said of all.
     let chosen_audience = |own: Option<ParsedAudience>| own.or(args.all).map(|choice| choice.0);
     let filled = |text: &Option<String>| {
         let text = text.as_deref().map(str::trim);
@@ -81,6 +82,7 @@ pub(super) fn run(cli: &CommandLine, args: &ConsentArgs, output: &mut CommandOut
     };
     let rows = if change == ConsentChange::default() {
         let all = corpus.list_consents()?;
+        // Without a change the command lists, and a wrong name is an error all the same.
         let named = corpus.consents_of(&args.who)?;
         if args.who.is_empty() { all } else { named }
     } else if args.who.is_empty() {

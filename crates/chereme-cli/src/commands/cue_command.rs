@@ -71,6 +71,7 @@ pub(super) fn run(cli: &CommandLine, args: &CueArgs, output: &mut CommandOutput)
         (Some(path), _) => {
             let (phones, odd) = cue_phones_of_file(path, spoken.tier.as_deref(), &reading)?;
             findings = odd;
+            // The file was read into SAMPA, whatever its own alphabet.
             reading.phones = Some(PhoneAlphabet::Sampa);
             phones
         }
@@ -91,6 +92,7 @@ pub(super) fn run(cli: &CommandLine, args: &CueArgs, output: &mut CommandOutput)
     if args.explain {
         output.write_warnings(&findings)?;
     }
+    // The explanation prints no warnings, JSON and the usual report do.
     done.report.warnings.append(&mut findings);
     super::recombine_command::print_recombination(&done, args.explain, args.draw.as_deref(), output)
 }

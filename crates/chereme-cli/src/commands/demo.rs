@@ -121,6 +121,7 @@ impl DemoRun {
             .map(|(what, count)| output.format_counted_noun(*count, what))
             .collect();
         output.filled_line("   built {what}: {n}", &[&self.path.display(), &made.join(", ")])?;
+        // The starter corpus is part of the program, so that a refusal is a fault of the program.
         if report.has_refusals() {
             bail!("files of the starter corpus were refused: {:?}", report.files);
         }
@@ -172,6 +173,7 @@ impl DemoRun {
         let answer = self.demo_corpus()?.search_tokens(query, &SearchOptions::default())?;
         let glosses: Vec<&str> = answer.hits.iter().map(|hit| hit.gloss.as_str()).collect();
         output.filled_line("   found again by search, {query}: {n}", &[&query, &glosses.join(", ")])?;
+        // A demonstration that finds nothing shows a fault of the program.
         if !glosses.contains(&"LIMACE") {
             bail!("the new sign LIMACE is not found by {query}");
         }

@@ -102,6 +102,7 @@ pub(super) fn run_and_report_detection(
     output: &mut CommandOutput,
 ) -> Result<()> {
     let detected = with_progress_bar(|progress| corpus.run_detection(options, progress))?;
+    // Only detections that are not stored are listed: the others are read in their tiers.
     if options.use_as == DetectionUse::Shown {
         let seconds = |micros: i64| format!("{:.3}", micros as f64 / 1e6);
         let mut rows = Vec::new();

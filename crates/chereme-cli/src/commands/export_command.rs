@@ -79,6 +79,7 @@ pub(super) fn run(cli: &CommandLine, args: &ExportArgs, output: &mut CommandOutp
     };
     if streams::is_standard(&args.to) {
         streams::not_with_json(output.is_json())?;
+        // A file has its format in its extension; a pipe has none.
         if args.format.is_none() {
             return Err(
                 CorpusError::from_wrong_message("standard output has no extension that says the format")
@@ -91,6 +92,7 @@ pub(super) fn run(cli: &CommandLine, args: &ExportArgs, output: &mut CommandOutp
         let notes = with_progress_bar(|progress| corpus.export_stream(&what, options, &mut out, progress))?;
         io::Write::flush(&mut out)?;
         for note in notes {
+            // Notes must not get into the file that standard output is.
             write_to_stderr(&format!("note: {}", output.translate_message(&note)));
         }
         output.silence_output();

@@ -127,6 +127,7 @@ fn fit_recorded_face(
         "{system} of {whose}, fitted on {n} frames of {recording}",
         &[&fit.system, &whose, &fit.frames, &fit.recording],
     )?;
+    // A factor of 1 was not fitted: the number never left its rest to that side.
     let factor = |value: f64| match value == 1.0 {
         true => "-".to_owned(),
         false => format!("{value:.2}"),

@@ -72,6 +72,7 @@ pub(super) fn run(cli: &CommandLine, args: &FitArgs, output: &mut CommandOutput)
         output.filled_line("not used: {names}", &[&report.unused.join(", ")])?;
     }
     output.write_warnings(&report.findings)?;
+    // A dry run reports everything but the stored track.
     match &report.track {
         Some(track) => output.filled_line("stored as the track {name}", &[&format_args!("{:?}", track)])?,
         None => output.write_output_line("nothing was stored")?,

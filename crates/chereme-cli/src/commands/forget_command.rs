@@ -75,6 +75,7 @@ fn print_forgotten(done: &ForgottenSigner, output: &mut CommandOutput) -> Result
     for path in &done.older_files {
         output.line_as_is(&format!("  {}", path.display()))?;
     }
+    // Only a file without the person can be searched for traces.
     if done.dry_run {
         return Ok(());
     }

@@ -81,6 +81,7 @@ fn walk_operations(output: &mut CommandOutput, times: usize, back: bool, corpus:
     let mut operations = Vec::new();
     let language = output.output_language();
     while operations.len() < times.max(1) {
+        // The first step is tried in any case, so that the library says why nothing can be undone.
         if !operations.is_empty() && left(corpus)? == 0 {
             let text = if back { words::ALL_UNDONE } else { words::ALL_REDONE };
             let count = output.format_counted_noun(operations.len() as u64, "operations");
@@ -92,6 +93,7 @@ fn walk_operations(output: &mut CommandOutput, times: usize, back: bool, corpus:
         } else {
             corpus.redo_operation()?
         };
+        // People count the operations that they did, not the ones that undo them.
         let target = operation.target.unwrap_or(operation.id);
         let text = if back { words::UNDID } else { words::REDID };
         let what = describe_operation(&operation, language);
@@ -135,6 +137,7 @@ pub(super) fn print_operation_log(cli: &CommandLine, args: &LogArgs, output: &mu
     let table: Vec<Vec<String>> = rows.iter().map(|row| operation_log_cells(row, output)).collect();
     let title_words = [words::NUMBER, words::WHEN, words::WHO, words::WHAT, words::CHANGES];
     let mut titles = title_words.map(|text| output.output_text(text)).to_vec();
+    // The last column says whether the operation was undone, and has no name.
     titles.push("");
     output.write_titled_table(&titles, &table)?;
     output.set_json_document(json!({ "total": rows.len(), "rows": rows }))

@@ -402,6 +402,7 @@ fn print_joined_recordings(joined: &[JoinedRecording], output: &mut CommandOutpu
 const MAX_NAMED_UNREAD: usize = 3;
 
 fn print_file(file: &FileReport, output: &mut CommandOutput) -> Result<()> {
+    // Skipped files of a folder are of kinds that nobody asked for.
     let status = match file.status {
         FileStatus::Skipped => return Ok(()),
         FileStatus::Imported => "",

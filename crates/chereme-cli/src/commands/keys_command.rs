@@ -94,6 +94,7 @@ impl SpokenInput {
             let unknown: String = unknown.into_iter().collect();
             output.write_output_line(format!("warning: espeak-ng prints {unknown:?}, which has no key"))?;
         }
+        // espeak-ng was asked for the pronunciation, so that the text is phones from here on.
         options.phones = Some(PhoneAlphabet::Ipa);
         Ok((phones, options))
     }

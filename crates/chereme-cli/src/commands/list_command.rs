@@ -53,6 +53,7 @@ pub(super) fn list_corpus_rows(cli: &CommandLine, args: &ListArgs, output: &mut 
     let corpus = cli.open_cli_corpus(&args.corpus)?;
     let mut columns = args.filter.clone();
     if let Some(name) = &args.inventory {
+        // A pattern is compared with the ids as they are; a name may be an older one or one of several spellings.
         let key = match name.contains('*') {
             true => name.clone(),
             false => corpus.inventory_key(name)?,
@@ -79,6 +80,7 @@ pub(super) fn list_corpus_rows(cli: &CommandLine, args: &ListArgs, output: &mut 
         })
         .collect();
     output.write_named_columns(&columns, &rows)?;
+    // A limit must not look like the whole list.
     let shown = if (rows.len() as u64) < listing.total {
         format!(", {} shown", rows.len())
     } else {

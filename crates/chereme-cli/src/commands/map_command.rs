@@ -50,6 +50,7 @@ pub(super) fn run(cli: &CommandLine, args: &MapArgs, output: &mut CommandOutput)
         if streams::is_standard(to) {
             streams::not_with_json(output.is_json())?;
             let stand = streams::stdout_stand_in("map", "svg")?;
+            // The drawing is a file in any case, which is then copied to standard output.
             map.draw_sign_map(&stand.path, false)?;
             output.silence_output();
             return streams::copy_to_stdout(&stand);

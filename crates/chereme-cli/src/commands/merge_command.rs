@@ -218,6 +218,7 @@ fn merge_annotation_files(args: &MergeArgs, output: &mut CommandOutput) -> Resul
     };
     let name = |path: &Path| path.display().to_string();
     let base_path = args.base.as_deref();
+    // Without a common state, what either side lacks counts as never written.
     let base = base_path.map(|path| Ok::<_, anyhow::Error>((name(path), streams::read_file_or_stdin(path)?)));
     let base = base.transpose()?;
     let (mine, other) = (
@@ -237,6 +238,7 @@ fn merge_annotation_files(args: &MergeArgs, output: &mut CommandOutput) -> Resul
         output.silence_output();
         return Ok(());
     }
+    // Asked before the merge is printed, as a refused one must not look done.
     if to.exists() && !args.force {
         return Err(CorpusError::from_file_failure(to, std::io::ErrorKind::AlreadyExists.into()).into());
     }

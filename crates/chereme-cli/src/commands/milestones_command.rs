@@ -56,6 +56,7 @@ pub(super) fn run(cli: &CommandLine, args: &MilestonesArgs, output: &mut Command
     };
     let milestone_table = with_progress_bar(|progress| corpus.derive_face_milestones(&options, progress))?;
     let seconds = |at: chereme_corpus::RecordingInstant| format!("{:.3}", at.instant_seconds());
+    // An empty table says nothing of why: no tier names functions, or none of this name.
     if milestone_table.expressions.is_empty() {
         let known_functions: Vec<String> = milestone_table
             .functions

@@ -85,6 +85,7 @@ pub(super) fn run(cli: &CommandLine, args: &PairsArgs, output: &mut CommandOutpu
         .map(|sign| format!("{} {}", sign.gloss, sign.pairs))
         .collect();
     output.filled_line("in most pairs: {list}", &[&dense.join(", ")])?;
+    // The list may have millions of rows, and is part of the document only if it is asked for.
     let mut document = serde_json::to_value(&pair_report)?;
     if args.list {
         output.write_item_table(

@@ -66,6 +66,7 @@ pub(super) fn run(cli: &CommandLine, args: &ProposeArgs, output: &mut CommandOut
         Some(only) => corpus.propose_scope(&only.parse::<CorpusAddress>()?)?,
     };
     if let Some(numbers) = &args.accept {
+        // Numbers and conditions could contradict each other.
         let is_narrowed = args.component.is_some() || args.only.is_some() || !args.tier.is_empty();
         if !numbers.is_empty() && (is_narrowed || args.confidence.is_some()) {
             anyhow::bail!(
@@ -99,6 +100,7 @@ pub(super) fn run(cli: &CommandLine, args: &ProposeArgs, output: &mut CommandOut
         return output.set_json_document(accepted);
     }
     if let Some(detector) = &args.detector {
+        // An older spelling of `detect --propose`.
         let options = DetectOptions::propose_with(detector, scope);
         return super::detect_command::run_and_report_detection(&mut corpus, &options, output);
     }

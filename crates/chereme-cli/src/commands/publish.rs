@@ -121,6 +121,7 @@ pub(super) fn run(cli: &CommandLine, args: &PublishArgs, output: &mut CommandOut
             &[&done.apart.join(", ")],
         )?;
     }
+    // So many pairs would make pages that no browser opens.
     if done.without_pairs {
         output.write_output_line(
             "minimal pairs are left out: there are more than 5,000,000, as the signs are coded in few fields",

@@ -87,6 +87,7 @@ pub(super) fn run(cli: &CommandLine, args: &RecombineArgs, output: &mut CommandO
         (None, None) => corpus.preview_recipe(&recipe)?,
     };
     print_recombination(&done, args.explain, args.draw.as_deref(), output)?;
+    // Two signs of one gloss are allowed, and seldom meant.
     if args.gloss.is_some() && one_more(&done) {
         let gloss = &done.gloss;
         output.filled_line(
@@ -142,6 +143,7 @@ pub(super) fn print_recombination(
             &done.gloss
         };
         let options = PictureOptions {
+            // A picture of a preview is looked at and made again many times.
             force: true,
             ..PictureOptions::default()
         };

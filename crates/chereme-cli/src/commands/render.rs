@@ -106,6 +106,7 @@ pub(super) fn run(cli: &CommandLine, args: &RenderArgs, output: &mut CommandOutp
         }
         false => None,
     };
+    // The rasteriser writes files; one of them stands in for standard output.
     let to = stand.as_ref().map_or(&args.to, |stand| &stand.path);
     let inventory = match args.what.as_slice() {
         [one] => one.strip_prefix("inventory:"),

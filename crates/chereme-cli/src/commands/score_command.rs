@@ -87,6 +87,7 @@ fn print_face_score(
 ) -> Result<()> {
     let function = args.function.as_deref().map(ExpressionFunction::from_function_name);
     let score = corpus.score_faces(both, function.as_ref(), &args.comparing.choose_options())?;
+    // The ratio of lengths counts as a difference unless it is left out.
     let shown_score = if args.comparing.no_stretch {
         score.unstretched
     } else {

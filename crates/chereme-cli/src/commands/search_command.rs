@@ -109,6 +109,7 @@ pub(super) fn run(cli: &CommandLine, args: &SearchArgs, output: &mut CommandOutp
         let error = CorpusError::from_wrong_message("there is no table to write");
         return Err(error.with_advice("name its fields with --count or --cross").into());
     }
+    // People read a screen of rows, programs take all.
     let limit = args.limit.or((!output.is_json()).then_some(TABLE_ROWS));
     let options = SearchOptions {
         limit,
@@ -129,6 +130,7 @@ pub(super) fn run(cli: &CommandLine, args: &SearchArgs, output: &mut CommandOutp
     }
     let rows: Vec<Vec<String>> = {
         let lexicons: BTreeSet<&String> = answer.hits.iter().filter_map(|hit| hit.lexicon.as_ref()).collect();
+        // The name of the only lexicon would say the same in each row.
         let has_several = lexicons.len() > 1;
         answer
             .hits
@@ -160,6 +162,7 @@ pub(super) fn run(cli: &CommandLine, args: &SearchArgs, output: &mut CommandOutp
             .map(|(value, count)| format!("{value} {count}"))
             .collect();
         let left_out = answer.facets_left_out.get(field).copied().unwrap_or(0);
+        // The library has left out values beyond its own limit.
         let more = match values.len().saturating_sub(shown) + left_out {
             0 => String::new(),
             more => format!(", and {more} more (--facets all)"),
@@ -246,8 +249,8 @@ fn save_named_query(corpus: &mut Corpus, args: &SearchArgs, name: &str, query: S
     Ok(message)
 }
 
-/// Returns the cells of a hit; with `names_lexicon` its gloss is that of a lexicon: `NGT/BOOK`.
-/// Returns the cells of a hit; before its components stands the value of the attribute that gives the order.
+/// Returns the cells of a hit; with `names_lexicon` its gloss is that of a lexicon: `NGT/BOOK`. Before its components
+/// stands the value of the attribute that gives the order.
 fn search_hit_cells(hit: &SearchHit, names_lexicon: bool, order_attribute: Option<&str>) -> Vec<String> {
     let lexicon = hit.lexicon.as_ref().filter(|_| names_lexicon);
     let seconds = |micros: i64| format!("{:.3}", micros as f64 / 1e6);

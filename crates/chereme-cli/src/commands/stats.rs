@@ -173,6 +173,7 @@ pub(super) fn run(cli: &CommandLine, args: &StatsArgs, output: &mut CommandOutpu
     if let Some(battison) = &lexicon_statistics.battison {
         print_battison_conditions(battison, args.limit, output)?;
     }
+    // Without a question the overview answers the usual one.
     if lexicon_statistics.of.is_none() && lexicon_statistics.between.is_none() && lexicon_statistics.battison.is_none()
     {
         print_lexicon_overview(&lexicon_statistics, output)?;

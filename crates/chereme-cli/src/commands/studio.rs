@@ -32,6 +32,7 @@ pub(crate) struct StudioArgs {
 
 pub(super) fn run(cli: &CommandLine, args: &StudioArgs, _: &mut CommandOutput) -> Result<ExitCode> {
     if let Some(corpus) = &args.corpus {
+        // The window would open on an error that the terminal shows better.
         fs::metadata(corpus).map_err(|error| CorpusError::from_file_failure(corpus, error))?;
     }
     let program_path = env::current_exe().and_then(fs::canonicalize).ok();

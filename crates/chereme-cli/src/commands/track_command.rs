@@ -114,6 +114,7 @@ pub(super) fn run(cli: &CommandLine, args: &TrackArgs, output: &mut CommandOutpu
                 &format_args!("{:.2}", alignment.confidence),
             ],
         )?;
+        // Below a half another offset fits almost as well.
         if alignment.confidence < 0.5 {
             output.write_output_line(
                 "this is uncertain: look at both tracks before you use it, or name other channels",
@@ -143,6 +144,7 @@ pub(super) fn run(cli: &CommandLine, args: &TrackArgs, output: &mut CommandOutpu
     let after = match after {
         Some(after) => after,
         None => {
+            // Nothing was changed, so that the track is shown as it is.
             let mut all = corpus.recording_tracks(&args.recording)?;
             all.retain(|track| track.name == *name);
             if all.is_empty() {

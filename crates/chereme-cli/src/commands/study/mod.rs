@@ -328,6 +328,7 @@ fn import_study_answers(
     if options.dry_run {
         output.write_output_line("nothing was stored: this was a dry run")?;
     }
+    // Some good files of many are a success, as their answers are stored.
     let code = match report.files.iter().all(refused) {
         true => ExitCode::FAILURE,
         false => ExitCode::SUCCESS,
@@ -361,6 +362,7 @@ fn plan_new_study(cli: &CommandLine, args: &NewArgs, output: &mut CommandOutput)
         Some(path) => {
             let (text, place) = named(path)?;
             let mut plan = Corpus::read_plan(&text, &place)?;
+            // One plan may be stored under several names.
             plan.name.clone_from(&args.name);
             plan
         }

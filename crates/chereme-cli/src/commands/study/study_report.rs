@@ -146,6 +146,7 @@ fn pair_row(
     row.push(ends.map_or_else(String::new, |interval| {
         format!("[{}; {}]", number(interval.low), number(interval.high))
     }));
+    // Answers of one person are not independent of each other: the test over people says what holds for others.
     for test in [&pair.pooled, &pair.people] {
         let shown = |p: Option<f64>| p.map_or_else(|| "-".to_owned(), |p| report_numbers::format_p_value(p, language));
         let test_result = test.found_result();
