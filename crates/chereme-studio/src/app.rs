@@ -121,10 +121,12 @@ impl Studio {
             .as_deref()
             .and_then(StudioSettings::read_settings_file)
             .unwrap_or(usual);
+        // A language for this run is not kept; the file keeps the one of the settings.
         let saved = settings.clone();
         settings.language = asked_language.unwrap_or(settings.language);
         let ctx: Arc<OnceLock<Context>> = Arc::default();
         let waked = ctx.clone();
+        // Workers exist before the first frame, which brings the context that they wake.
         let wake: WindowWaker = Arc::new(move || {
             if let Some(ctx) = waked.get() {
                 ctx.request_repaint();
@@ -470,6 +472,7 @@ impl Studio {
             };
             tree.ui(&mut workbench, ui);
             layout::settle_pane_shares(tree);
+            // A tile is made active only when the tree is no longer being drawn.
             let (under, chosen) = (workbench.under, workbench.chosen);
             if let Some(tile) = chosen {
                 tree.make_active(|id, _| id == tile);

@@ -87,6 +87,7 @@ impl TaskWake for ChooserWaker {
 fn native(what: ChooserPurpose, language: InterfaceLanguage) -> ChosenPathsFuture {
     let dialog = AsyncFileDialog::new().set_title(what.chooser_title().text_in_language(language));
     let one = |file: Option<FileHandle>| file.map(|handle| handle.path().to_owned()).into_iter().collect();
+    // The dialog is made at once and awaited later: some desktops open it only from the main thread.
     let corpora = [words::CORPORA.text_in_language(language), "chereme"];
     match what {
         ChooserPurpose::Corpus | ChooserPurpose::Merge => {

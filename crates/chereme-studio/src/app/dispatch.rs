@@ -373,6 +373,7 @@ impl Studio {
         let rate = made
             .or_else(|| self.reel.reel_frame_rate())
             .or_else(|| FrameRate::new(NO_FRAMES, 1).ok());
+        // A selection belongs to the recording, and says nothing about generated movement.
         let part = self.shown.span.filter(|_| made.is_none());
         let stepping = self.settings.stepping;
         let player = self.shown.on_stage_mut();
@@ -409,6 +410,7 @@ impl Studio {
             Action::FrameBack | Action::FrameForward => {
                 let frames = if action == Action::FrameBack { -1 } else { 1 };
                 let filmed = made.is_none() && !self.reel.has_movement();
+                // Frames of a film may be uneven, so that it knows its next one itself.
                 if filmed && let Some(next) = self.films.step_first_film(at, frames) {
                     player.stop_playback();
                     player.seek_player_instant(next);

@@ -50,6 +50,7 @@ impl Studio {
                 if !seen.reel.has_movement() {
                     return Err(nothing);
                 }
+                // Without a selection the token under the playhead would be a surprise: the recording is meant.
                 let selected = seen.shown.selected_annotation().is_some() || seen.shown.span.is_some();
                 match selected_token(&seen).filter(|_| selected) {
                     Some((token, gloss)) => (
@@ -74,6 +75,7 @@ impl Studio {
                 let what = ExportWhat::Address(address);
                 Ok(exchange::export_files_job(what, to, ExportOptions::default()))
             }
+            // Exports read the store, and this movement is not in it.
             ("glb", SharedMovement::Made(_)) => Err(words::SHARE_STORE),
             (ending, what) => {
                 let options = PictureOptions {

@@ -189,6 +189,7 @@ impl NoticeBoard {
 
     /// Reports the outcome of work, if it is worth a notice.
     pub(crate) fn report_work_outcome(&mut self, outcome: &WorkOutcome, language: InterfaceLanguage) {
+        // Notices that ask to look at something pass with the next change.
         let written = matches!(
             outcome,
             WorkOutcome::Annotated(_)

@@ -345,6 +345,7 @@ fn panel_zones(
     let panel_response = ui.interact(rect, ui.scope_id().with(("panel", view)), Sense::click());
     let under = panel_response.hover_pos().and_then(|at| areas.zone_index_at(rect, at));
     let mut picked = None;
+    // A pointer at rest must not take the choice away from the arrow keys.
     let moved = ui.input(|input| input.pointer.delta() != eframe::egui::Vec2::ZERO);
     if let Some(zone) = under {
         let id = &inventory.values[areas.zones[zone].value].id;

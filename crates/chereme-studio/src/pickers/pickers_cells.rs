@@ -60,6 +60,7 @@ impl PickerCells<'_> {
         let mut picked = None;
         let focused = has_focused_cell(ui, picker);
         let moved = self.pressed.direction.is_some();
+        // The place of a cell is known only after the frame that laid it out, so that it is revealed over several.
         if let Some(at) = index.filter(|_| picker.reveals > 0) {
             picker.reveals -= 1;
             ui.scroll_to_rect(cells[at].rect, Some(Align::Center));
@@ -101,6 +102,7 @@ impl PickerCells<'_> {
         if let Some(at) = index {
             picker.at = Some(id_of(&cells[at]).to_owned());
         }
+        // Digits stand for the values that they had when the picker opened; without any, for the first ones.
         let of_digit = |digit: usize| match picker.digits.get(digit) {
             Some(value) => cells.iter().position(|cell| id_of(cell) == value),
             None => Some(digit).filter(|_| picker.digits.is_empty()),

@@ -57,6 +57,7 @@ pub(super) fn show_direction_roses(
             ui.painter()
                 .text(text_position, Align2::CENTER_BOTTOM, name, font, colour);
         }
+        // A rose is a field of three by three: eight directions around the one along the line of sight.
         let third = side / 3.0;
         for (value, place) in places.iter().enumerate() {
             let Some((_, [x, y])) = place.filter(|(of, _)| of == rose) else {
@@ -69,6 +70,7 @@ pub(super) fn show_direction_roses(
             });
         }
     }
+    // Values that the filter hides keep their place empty, so that directions do not move.
     all.retain(|cell| shown.contains(&cell.value));
     let colours = cells.seen.pane_colours();
     cells.show_picker_cells(ui, picker, &all, |ui, cell, state| {

@@ -103,6 +103,7 @@ impl RectangleSheet {
                     let part = extract_partial_mesh(&mesh, indices);
                     self.add_unchanged_shape(clip, Shape::mesh(part), indices.len() / 3);
                 }
+                // The two triangles of a later rectangle must not be parted.
                 self.pair_odd_triangles(clip, mesh.indices.len() / 3);
             }
             Shape::Text(text) => {

@@ -133,6 +133,7 @@ fn turned_layout_job(job: &LayoutJob, lines: &[TextLineRange]) -> LayoutJob {
         };
         let start = turned.text.len();
         turned.text.push_str(text);
+        // A piece in the middle of a section has no space before it.
         let begins = first && section.byte_range.start.0 == at;
         turned.sections.push(LayoutSection {
             leading_space: if begins { section.leading_space } else { 0.0 },
@@ -150,6 +151,7 @@ fn turned_layout_job(job: &LayoutJob, lines: &[TextLineRange]) -> LayoutJob {
         for (nth, piece) in pieces.iter().enumerate() {
             add(&piece.text, range.start + piece.range.start, nth == 0);
         }
+        // The job draws lines as they are, so that the sign of a cut is added here.
         if let (true, Some(sign)) = (*cut, job.wrap.overflow_character) {
             add(&sign.to_string(), range.end.saturating_sub(1), false);
         }

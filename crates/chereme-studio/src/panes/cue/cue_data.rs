@@ -139,6 +139,7 @@ pub(super) fn read_cued_text(text: &str, choices: &CueChoices, corrections: &Pho
         doubtful.push(Vec::new());
     }
     let corrected = reading.words.iter().any(|word| word.corrected);
+    // A corrected word cannot be read from its spelling again, so that the whole input is given as phones.
     reading.as_phones = corrected || !choices.has_spelling_rules();
     let places: Vec<(usize, usize)> = reading
         .words
@@ -162,6 +163,8 @@ pub(super) fn read_cued_text(text: &str, choices: &CueChoices, corrections: &Pho
         let vowel = key.from.last().and_then(|at| places.get(*at)).copied();
         let other = vowel.and_then(|(word, at)| {
             let phone = key.phones.last()?;
+            // Only vowels that the code gives to two places are worth a question, and only where the spelling leaves
+            // them open.
             let uncertain = doubtful[word].contains(&at) || reading.words[word].corrected;
             let pair = code.doubtful.iter().find(|pair| uncertain && pair.contains(phone))?;
             let other = pair.iter().find(|member| *member != phone)?;

@@ -191,6 +191,7 @@ impl CuePane {
             self.editing = None;
             self.shows = true;
             match phones {
+                // A word that was only looked at is no correction.
                 Some(phones) if phones == reading.words[at].phones => {}
                 Some(phones) => drop(self.corrections.insert((at, text), phones)),
                 None => drop(self.corrections.remove(&(at, text))),
@@ -360,6 +361,7 @@ impl CuePane {
             self.exercise = Some(CueExercise::from_practice_items(items, seed));
             cue_now = true;
         }
+        // It is taken out while the pane itself is used to show the word.
         let Some(mut exercise) = self.exercise.take() else {
             return;
         };

@@ -119,6 +119,7 @@ fn plot(ui: &mut Ui, seen: &PaneInput<'_>, onsets: &NonmanualOnsets) {
             let y = top + ONSET_ROW_HEIGHT * n as f32 + 2.0;
             let ends = [
                 pos2(x(it.q1), y),
+                // A box whose quartiles are equal still has a pixel.
                 pos2(x(it.q3).max(x(it.q1) + 1.0), y + ONSET_ROW_HEIGHT - 5.0),
             ];
             let box_of = Rect::from_two_pos(ends[0], ends[1]);

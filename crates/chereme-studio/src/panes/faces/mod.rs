@@ -331,6 +331,7 @@ impl PaneInterface for FacesPane {
             match ended {
                 Ok(WorkOutcome::Chosen(choice)) => {
                     self.wrong = None;
+                    // Another criterion keeps the performance that the user looks at, as long as it is in the list.
                     let kept = self.chosen_performance(choice).or(choice.ranking.first()).cloned();
                     self.choice = Some(choice.clone());
                     if let Some(first) = kept {

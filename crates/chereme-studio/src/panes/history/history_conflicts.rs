@@ -77,6 +77,7 @@ fn show_conflict_row(ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox,
         (ConflictDecision::Theirs, Some(shown(&conflict.theirs))),
         (
             ConflictDecision::Both,
+            // Only two annotations can both stay; other things have one state.
             (conflict.what == "annotation" && conflict.theirs.is_some()).then(String::new),
         ),
     ];

@@ -186,6 +186,7 @@ impl HistoryPane {
     fn show_history_row(&self, ui: &mut Ui, seen: &PaneInput<'_>, height: f32, row: &HistoryRow) -> bool {
         let size = vec2(ui.available_width(), height);
         let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+        // The number counts the operations that would have to be undone first.
         let newest = row.standing == OperationStanding::Stands(0);
         response.widget_info(|| WidgetInfo::selected(Role::Button, true, newest, &row.what));
         let state = match row.standing {

@@ -137,12 +137,14 @@ pub(super) fn show_body_map(
     let mark = near.and_then(|at| nearest_body_mark(&marks, |mark| place(mark.at).distance(at)))?;
     let joint = found
         .iter()
+        // A finger is one mark for all its joints.
         .find(|(part, _)| **part == mark.part || part.starts_with(&format!("{} ", mark.part)));
     let named = import_people::body_part_name(&mark.part, seen.language);
     let text = match joint {
         Some((_, joint)) => format!("{named} = {joint}"),
         None => fill_text_braces(seen.say_text(words::PART_MISSING), &[("part", &named)]),
     };
+    // After the import the map only shows what was found.
     if !points {
         response.on_hover_text_at_pointer(text);
         return None;

@@ -57,6 +57,7 @@ pub(super) fn split_notation_parts(text: &str) -> Vec<(InterfaceText, Vec<Hamnos
     let mut now = NotationPart::Hands;
     let mut waiting: Vec<HamnosysSymbol> = Vec::new();
     for symbol in names.into_iter().filter_map(HamnosysSymbol::from_symbol_name) {
+        // An opening bracket belongs to the part that follows, which only the next symbol shows.
         let opens = symbol.symbol_name().ends_with("begin");
         match (now.part_after_class(symbol.symbol_class()), parts.last_mut()) {
             (Some(next), Some((part, all))) if *part == next => {

@@ -470,6 +470,7 @@ pub(super) fn show_sign_field(ui: &mut Ui, seen: &PaneInput<'_>, id: Id, name: &
             let address = recipe_token_address(&seen.snapshot.overview, token, &gloss);
             (address, gloss)
         });
+        // The button would do nothing for the sign that stands there already.
         if let Some((address, gloss)) = selected.filter(|selection| selection.0 != *text) {
             let tip = crate::words::fill_text_braces(seen.say_text(words::TAKE_SELECTED), &[("gloss", &gloss)]);
             let button = ui.add(eframe::egui::Button::new(tip.as_str()).truncate());

@@ -227,6 +227,7 @@ pub(super) fn show_travel_path(
     let drawn = draw_path_board(ui, seen, id, travel, board);
     let mut changed = drawn.is_some();
     if let Some(points) = drawn {
+        // A drawn curve replaces straight legs: a path is one or the other.
         (travel.through, travel.path) = (points, Vec::new());
     }
     if !travel.through.is_empty() {

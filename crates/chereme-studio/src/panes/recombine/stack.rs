@@ -222,6 +222,7 @@ impl CardStack {
                 (true, 0) => "/then/first".to_owned(),
                 (true, nth) => format!("/then/next/{}/node", nth - 1),
             };
+            // Reports name the piece itself, too, for its transition from the one before.
             if several && piece > 0 {
                 paths.insert(format!("/then/next/{}", piece - 1), *at);
             }
@@ -231,6 +232,7 @@ impl CardStack {
                 .take_while(|at| !self.cards[**at].what.is_source())
                 .copied()
                 .collect();
+            // A source without steps is no pipe in the JSON.
             if done.is_empty() {
                 paths.insert(base, *at);
                 continue;

@@ -171,6 +171,7 @@ pub(crate) fn hit_coding_values(hit: &SearchHit) -> Vec<(String, String)> {
             if field_hand != hand {
                 continue;
             }
+            // Pictures show a value once, whatever its hand and phase.
             let kept: Vec<&str> = parts
                 .into_iter()
                 .filter(|part| *part != field_hand && !["initial", "middle", "final"].contains(part))

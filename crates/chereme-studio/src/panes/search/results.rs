@@ -116,6 +116,7 @@ fn draw_result_figure(
     let picture = Rect::from_min_size(rect.min, vec2(size.x, size.y - FIGURE_FOOT_HEIGHT_POINTS));
     let motion = find_hit_motion(&hit, seen);
     let made = match &motion {
+        // Movement from notation is costly, and made only for pictures that are in sight.
         None if ui.is_rect_visible(rect) && seen.snapshot.is_notated(&hit.gloss) => {
             let made = search.notated.notated_clip(hit.token, &hit.gloss, out);
             made.map(MiniatureMotion::Made)
@@ -128,6 +129,7 @@ fn draw_result_figure(
     show_hit_menu(&response, seen, &hit, out);
     match motion.filter(|motion| !seen.little.is_nothing(motion)) {
         Some(motion) => {
+            // The keyboard has the same right to movement as the pointer.
             let playing = search.playing || response.hovered() || response.has_focus();
             let focus = figure_focus(search.close, &search.field.text);
             let mut little = MiniatureCell::new(motion, picture.size()).with_picture_focus(focus);

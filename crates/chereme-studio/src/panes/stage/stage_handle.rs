@@ -508,6 +508,7 @@ fn paint_stage_handle(
     let spot = |[x, y]: [f32; 2]| held.pane.min + vec2(x, y);
     let middle = spot(laid.middle);
     let paper = ui.visuals().extreme_bg_color;
+    // A dashed line shows from where the place was dragged.
     if let Some((_, origin)) = dragged
         && let Some(from) = gizmo::lay_out_gizmo(&held.projection, origin, DMat3::IDENTITY)
     {

@@ -136,10 +136,13 @@ pub(super) fn show_body_marks(
     for (index, mark) in marks.iter().enumerate() {
         let projected = projection.project_point(mark.at.as_vec3());
         let place = rect.min + vec2(projected.x, projected.y) * scale;
+        // Marks behind the camera would be mirrored into the picture.
         if projected.depth <= 0.0 || !rect.shrink(4.0).contains(place) {
             continue;
         }
         let Some(zone) = &mark.zone else {
+            // Of several small marks only the first under the pointer says its name, or names would lie over each
+            // other.
             let near = pointer.is_some_and(|at| at.distance(place) < BODY_MARK_REACH_POINTS / 2.0) && !pointed;
             let radius = if near { 3.0 } else { 1.6 };
             painter.circle_filled(place, radius, colours.accent.gamma_multiply(0.7));

@@ -394,6 +394,7 @@ fn send_picture_request(stage: &mut StagePane, seen: &PaneInput<'_>, look: Stage
         std::sync::Arc::new(mesh)
     });
     if let Some(grab) = &stage.holding.grab {
+        // While something is dragged, the posture before it stays as a shadow.
         ghosts.push((figures.len(), 0.6));
         figures.push(PosedFigure::at_rest(signer.body_before_edit(), grab.pose.clone()));
     }
@@ -432,6 +433,7 @@ fn send_picture_request(stage: &mut StagePane, seen: &PaneInput<'_>, look: Stage
             layers.extend(ghosts.iter().map(|ghost| sheet(Some(ghost.0), None, ghost.1)));
         }
         if let (StagePartContent::Both, Some((figure, _))) = (who, &original) {
+            // Both movements at once: the original shines through without hiding the other.
             let over = sheet(Some(*figure), None, 0.42);
             layers.push(ShapeSheet { veiled: false, ..over });
         }
@@ -448,6 +450,7 @@ fn send_picture_request(stage: &mut StagePane, seen: &PaneInput<'_>, look: Stage
             camera: subject_eye_camera(subject, StageEye::from_preset_view(*view), *size, &figures[at].pose),
             size: *size,
             layers: vec![sheet(Some(at), None, 1.0)],
+            // Insets are small, and show fingers or a face.
             fine: true,
         });
     }

@@ -282,6 +282,7 @@ pub(super) fn comparison_table_rows(report: &StudyReport, language: InterfaceLan
         let ends = effect.and_then(|effect| effect.interval.found_result());
         let p = |test: &chereme_corpus::study::report::StatsOutcome<_>| {
             let test: Option<&chereme_corpus::study::report::PairTest> = test.found_result();
+            // A test may be undefined, as for groups of one person.
             test.map_or_else(
                 || "–".to_owned(),
                 |test| report_numbers::format_p_value(test.p_holm, language),
