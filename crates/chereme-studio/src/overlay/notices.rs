@@ -395,6 +395,7 @@ impl NoticeBoard {
     pub(crate) fn ui(&mut self, ctx: &Context, language: InterfaceLanguage, out: &mut CommandOutbox) {
         let now = ctx.input(|input| input.time);
         for notice in &mut self.all {
+            // A notice that came between two frames lasts from the first frame that shows it.
             notice.since.get_or_insert(now);
         }
         let old = |notice: &WindowNotice| {
@@ -409,6 +410,7 @@ impl NoticeBoard {
         if self.all.is_empty() {
             return;
         }
+        // Without a frame nothing would take old notices away.
         ctx.request_repaint_after(std::time::Duration::from_millis(500));
         let in_line = self.in_line;
         let elsewhere = |notice: &&WindowNotice| Some(notice.id) != in_line && !notice.quiet;

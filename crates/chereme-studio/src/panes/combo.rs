@@ -73,6 +73,7 @@ pub(crate) fn step_combo_choice<R>(
     });
     let index = match typed {
         Some(letter) => next_with(names, now, letter)?,
+        // Neither a letter nor an arrow.
         None if by == 0 => return None,
         None => match now {
             Some(now) => now.saturating_add_signed(by).min(names.len() - 1),

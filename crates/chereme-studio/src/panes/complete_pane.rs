@@ -102,6 +102,7 @@ pub(crate) fn show_completion_line(
     let mut listed: CandidateListState = ui.data(|data| data.get_temp(id)).unwrap_or_default();
     let before = listed;
     let pointed = ui.input(|input| input.pointer.interact_pos());
+    // A press on the list takes the focus from the line, and must still find the list.
     let is_pressed = listed.rect.zip(pointed).is_some_and(|(rect, at)| rect.contains(at));
     let mut offered = Vec::new();
     if focused || is_pressed {
@@ -124,6 +125,7 @@ pub(crate) fn show_completion_line(
         }
         let only = line.takes_only && is_only(&offered, text);
         let enter = listed.chosen.or(only.then_some(0));
+        // Without a choice Enter is left to the line, which ends the entry.
         if enter.is_some() && pressed(Key::Enter) {
             taken = enter.and_then(|at| offered.get(at)).cloned();
         }
@@ -190,6 +192,7 @@ pub(crate) fn show_completion_line(
             away: true,
             ..CandidateListState::default()
         };
+        // Typing goes on behind what was taken.
         to_end(ui, id, text.chars().count());
         response.request_focus();
     }

@@ -49,6 +49,7 @@ fn board(ui: &mut Ui, seen: &PaneInput<'_>, id: Id, fresh: bool, text: &mut Stri
         let enter = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         if let Some(symbol) = find_matching_symbols(&typed, seen.language)
             .first()
+            // Enter takes the first of the symbols found; with nothing typed that would be any.
             .filter(|_| enter && !typed.is_empty())
         {
             append_symbol_text(text, *symbol);

@@ -70,6 +70,7 @@ impl AgreementChoices {
                 (names.clone(), names)
             }
             (false, false) => {
+                // Names are not unique over recordings, numbers are.
                 let numbers = [a?, b?].map(|id| format!("tier:{id}"));
                 ([named(a)?, named(b)?], numbers)
             }

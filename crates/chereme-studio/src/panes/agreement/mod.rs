@@ -137,6 +137,7 @@ impl AgreementPane {
             options,
             names,
         };
+        // A slider passes many values that nobody wants compared.
         let dragging = ui.input(|input| input.pointer.any_down());
         if self.asked.as_ref() == Some(&asked) || dragging {
             return;
@@ -146,6 +147,7 @@ impl AgreementPane {
         }
         let taken: Vec<&str> = contents.tiers.iter().map(|tier| tier.row.name.as_str()).collect();
         let proposed = agreement_data::third_name(&asked.names, &taken);
+        // A name that the user typed stays.
         if self.into.trim().is_empty() || self.into == self.proposed {
             self.into.clone_from(&proposed);
         }

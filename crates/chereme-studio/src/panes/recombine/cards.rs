@@ -159,6 +159,7 @@ fn show_card_frame(
         let press_position = input.pointer.interact_pos();
         input.pointer.any_pressed() && press_position.is_some_and(|at| rect.contains(at))
     });
+    // Any press in a card chooses it, the ones on its fields, too, which take the click.
     if pressed && !shown.chosen {
         did.push(CardStackAction::Choose(shown.card.id));
     }

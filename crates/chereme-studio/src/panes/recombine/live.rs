@@ -92,6 +92,7 @@ impl RecipePreview {
             return;
         }
         if let Some((id, running, _)) = &self.running {
+            // A running evaluation is soon done and shows something; only a long one is stopped for a newer recipe.
             let overtaken = *running != wish && now - self.since > EVALUATION_PATIENCE_SECONDS;
             if overtaken && self.stopped == [false; 2] {
                 out.send_command(WindowCommand::Stop(*id));

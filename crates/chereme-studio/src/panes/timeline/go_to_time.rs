@@ -78,6 +78,7 @@ pub(super) fn show_go_to_time(
     let player = scene.seen.shown.on_stage();
     let (whole, now) = (player.whole, player.player_playhead().instant_micros());
     let made = scene.seen.shown.made.as_ref();
+    // Generated movement counts its own frames from its own beginning.
     let frames = match made {
         Some(showing) => Some(RecordingFrameTimes {
             rate: showing.made.clip.clip_frame_rate(),
@@ -96,6 +97,7 @@ pub(super) fn show_go_to_time(
             let response = script_edit::draw_with_text_edge(ui, |ui| ui.add(field));
             let label = say(words::GO_FIELD);
             response.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, label));
+            // The box has one field, and the keyboard belongs to it.
             response.request_focus();
             to = parse_time_target(&shown.text, now, whole, frames);
             let inside = to.is_none_or(|at| {

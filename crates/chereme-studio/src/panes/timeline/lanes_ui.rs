@@ -164,6 +164,7 @@ impl TimelineDrawing<'_, '_> {
             timeline_paint::paint_time_selection(&painter, area, &self.window, span, self.seen);
         }
         let y = |value: f32| area.bottom() - 1.0 - value.clamp(0.0, 1.0) * (area.height() - 4.0);
+        // Near by each change is drawn, from afar the range of each pixel.
         let mesh = match curves.stored_runs(name, &self.window, area.width()) {
             Some(runs) => hill(&runs, area, y, colours.good),
             None => {

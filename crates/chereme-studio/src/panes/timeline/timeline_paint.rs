@@ -102,6 +102,7 @@ pub(super) fn paint_annotation_bar(
         (_, true) => (2.5, colours.playhead),
         _ => (1.0, darker(colour)),
     };
+    // Edges would fill a bar of this width.
     if rect.width() < 4.0 && !chosen {
         painter.rect_filled(rect, 0.0, fill);
         return;

@@ -202,6 +202,7 @@ fn assign_spoken_values(
             };
         }
         ([], _) => return ActionOutcome::Cannot(shell::NEEDS_ANNOTATION),
+        // A table column pasted at one cell goes on below it, in spreadsheets, too.
         ([one], _) => (*one..columns.len()).collect(),
         _ => chosen_places,
     };
@@ -276,6 +277,7 @@ fn duplicate_chosen_annotations(
     if let [one] = all.as_mut_slice() {
         let until = dragged::annotation_time_limits(scene.contents, scene.recording_frame_times().is_some()).to;
         let next = columns.starts.get(last + 1).map_or(until, |next_start| *next_start);
+        // A single copy is shortened to the gap behind it; several would lose their rhythm.
         one.end = one.end.min(one.start + (next - end).max(dragged::MIN_ANNOTATION_US));
     }
     let plan = scene.plan_annotation_paste(tier, all, Some(end));

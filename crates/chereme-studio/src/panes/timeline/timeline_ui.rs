@@ -472,6 +472,7 @@ impl TimelineDrawing<'_, '_> {
             self.window.start as i64,
             self.window.points_to_micros(lane.width()) as i64 + 1,
         );
+        // Annotations narrower than a pixel and a half are drawn as one bar.
         let narrow = (self.window.scale * 1.5) as i64;
         for bar in &timeline_data::join_annotation_bars(&tier.annotations, from, to, narrow.max(1)) {
             let rect = timeline_paint::bar_rect(lane, &self.window, bar);
@@ -488,6 +489,7 @@ impl TimelineDrawing<'_, '_> {
                 if bar_response.has_focus() {
                     timeline_paint::paint_annotation_focus(&painter, here, self.seen);
                 }
+                // A bar lies over its lane and would otherwise keep the mouse from it.
                 self.lane_mouse(ui, &bar_response, contents, at, lane);
                 self.lane_menu(&bar_response, contents, at, lane);
             }

@@ -149,6 +149,7 @@ fn by_picture(
     let weak = ui.visuals().weak_text_color();
     let number = ui.painter().layout_no_wrap(digit.to_owned(), font, weak);
     let number_rect = Align2::RIGHT_CENTER.anchor_size(end, number.size());
+    // A long value may reach below the digit.
     let back = ui.visuals().window_fill;
     if !digit.is_empty() {
         ui.painter().rect_filled(number_rect.expand(2.0), 3.0, back);
