@@ -165,6 +165,20 @@ impl AnnotationTranscript {
         self.tiers.get(place.tier)?.annotations.get(place.index)
     }
 
+    /// Returns the indices of the tiers, parents before those below them, else in the order of the file.
+    #[must_use]
+    pub fn tiers_parents_first(&self) -> Vec<usize> {
+        // Parents in a circle must not be followed for ever.
+        let depth = |tier: usize| {
+            std::iter::successors(Some(tier), |at| self.tiers[*at].parent)
+                .take(self.tiers.len() + 1)
+                .count()
+        };
+        let mut order: Vec<usize> = (0..self.tiers.len()).collect();
+        order.sort_by_key(|tier| (depth(*tier), *tier));
+        order
+    }
+
     /// Returns the end of the last annotation.
     #[must_use]
     pub fn transcript_end(&self) -> RecordingInstant {

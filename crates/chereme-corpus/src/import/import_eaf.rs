@@ -600,7 +600,7 @@ fn write_tiers(
     let first = stored_tiers::load_tier_rows(job.connection, recording)?.len();
     let mut rows = vec![0; transcript.tiers.len()];
     let mut new = 0;
-    for place in transcript_tiers_parents_first(transcript) {
+    for place in transcript.tiers_parents_first() {
         let (tier, guess) = (&transcript.tiers[place], &guesses[place]);
         if let Some(row) = there.get(&tier.name) {
             rows[place] = row.id;
@@ -631,18 +631,6 @@ fn write_tiers(
     Ok(rows)
 }
 
-fn transcript_tiers_parents_first(transcript: &AnnotationTranscript) -> Vec<usize> {
-    let depth = |place: usize| {
-        std::iter::successors(Some(place), |&at| transcript.tiers[at].parent)
-            // A file whose tiers are each other's parents must not let this run on for ever.
-            .take(transcript.tiers.len() + 1)
-            .count()
-    };
-    let mut order: Vec<usize> = (0..transcript.tiers.len()).collect();
-    order.sort_by_key(|&place| (depth(place), place));
-    order
-}
-
 fn write_annotations(
     job: &mut ImportJob<'_>,
     transcript: &AnnotationTranscript,
@@ -652,7 +640,7 @@ fn write_annotations(
 ) -> CorpusResult<()> {
     let mut rows: BTreeMap<AnnotationAddress, i64> = BTreeMap::new();
     let mut count = 0;
-    for tier in transcript_tiers_parents_first(transcript) {
+    for tier in transcript.tiers_parents_first() {
         for (index, annotation) in transcript.tiers[tier].annotations.iter().enumerate() {
             // The progress also answers whether the user stopped the import, so it is asked within long
             // tiers.

@@ -41,7 +41,7 @@ pub(super) fn match_transcripts(a: &AnnotationTranscript, b: &AnnotationTranscri
         by_id(a, b, &ids, &mut matching);
     }
     // Links of chains are matched below matched parents, which therefore come first.
-    for at in compared_tiers_parents_first(a) {
+    for at in a.tiers_parents_first() {
         if let Some(other) = matching.tiers[at] {
             if is_symbolic(a, at) {
                 by_place(a, b, at, other, &mut matching);
@@ -368,16 +368,4 @@ fn annotation_overlap_share(a: &TranscriptAnnotation, b: &TranscriptAnnotation) 
         return 0.0;
     }
     end.saturating_sub(start) as f64 / whole_length as f64
-}
-
-fn compared_tiers_parents_first(it: &AnnotationTranscript) -> Vec<usize> {
-    // Parents in a circle must not be followed for ever.
-    let depth = |tier: usize| {
-        std::iter::successors(Some(tier), |at| it.tiers[*at].parent)
-            .take(it.tiers.len() + 1)
-            .count()
-    };
-    let mut order: Vec<usize> = (0..it.tiers.len()).collect();
-    order.sort_by_key(|tier| (depth(*tier), *tier));
-    order
 }

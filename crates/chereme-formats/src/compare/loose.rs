@@ -5,6 +5,7 @@ use crate::transcript::AnnotationTranscript;
 use crate::transcript::{AnnotationAddress, AnnotationTiming, TranscriptAnnotation, TranscriptTier};
 use chereme_motion::TimeSpan;
 use chereme_sign::TierStereotype;
+use chereme_sign::tier::subdivision_share;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// An annotation by id.
@@ -120,7 +121,7 @@ impl TranscriptPieces {
         }
         let mut places: HashMap<String, AnnotationAddress> = HashMap::new();
         let mut seen = HashSet::new();
-        for at in loose_tiers_parents_first(&transcript) {
+        for at in transcript.tiers_parents_first() {
             let name = transcript.tiers[at].name.clone();
             let mut tier_annotations: Vec<LooseAnnotation> = Vec::new();
             for id in &self.order {
@@ -178,7 +179,7 @@ fn fill_transcript_tier(
             it.millis = None;
             if many {
                 it.order = u32::try_from(order).unwrap_or(u32::MAX);
-                it.span = loose_span_share(span, order, count);
+                it.span = subdivision_share(span, order, count);
                 it.timing = if count == 1 {
                     AnnotationTiming::Parent
                 } else {
@@ -194,26 +195,4 @@ fn fill_transcript_tier(
         places.insert(it.id.clone(), AnnotationAddress { tier: at, index });
         transcript.tiers[at].annotations.push(it);
     }
-}
-
-/// Returns the `k`-th of `count` even shares of a span.
-fn loose_span_share(span: TimeSpan, k: usize, count: usize) -> TimeSpan {
-    let cut = |k: usize| {
-        let offset = i128::from(span.span_micros()) * k as i128 / count.max(1) as i128;
-        span.span_start_instant()
-            .shifted_instant(i64::try_from(offset).unwrap_or(i64::MAX))
-    };
-    TimeSpan::span_between(cut(k), cut(k + 1))
-}
-
-fn loose_tiers_parents_first(it: &AnnotationTranscript) -> Vec<usize> {
-    // Parents in a circle must not be followed for ever.
-    let depth = |tier: usize| {
-        std::iter::successors(Some(tier), |at| it.tiers[*at].parent)
-            .take(it.tiers.len() + 1)
-            .count()
-    };
-    let mut order: Vec<usize> = (0..it.tiers.len()).collect();
-    order.sort_by_key(|tier| (depth(*tier), *tier));
-    order
 }

@@ -12,6 +12,7 @@ use crate::finding::ImportFinding;
 use crate::tally::FindingTally;
 use chereme_motion::{RecordingInstant, TimeSpan};
 use chereme_sign::TierStereotype;
+use chereme_sign::tier::subdivision_share;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// The number of overlaps of one tier that a finding names.
@@ -508,7 +509,7 @@ impl<'d> EafTierConverter<'d> {
                 };
                 let annotation = &mut self.tiers[at].annotations[place.index];
                 annotation.order = u32::try_from(k).unwrap_or(u32::MAX);
-                annotation.span = even_span_share(span, k, count);
+                annotation.span = subdivision_share(span, k, count);
                 // An only child has the time of its parent, as an association has.
                 annotation.timing = if count == 1 {
                     AnnotationTiming::Parent
@@ -638,13 +639,4 @@ struct TimedSpan {
     timing: AnnotationTiming,
     parent: Option<AnnotationAddress>,
     millis: Option<[i64; 2]>,
-}
-
-/// Returns the `k`-th of `count` even shares of `span`.
-fn even_span_share(span: TimeSpan, k: usize, count: usize) -> TimeSpan {
-    let cut = |k: usize| {
-        let offset = i128::from(span.span_micros()) * k as i128 / count as i128;
-        span.span_start_instant().shifted_instant(offset as i64)
-    };
-    TimeSpan::span_between(cut(k), cut(k + 1))
 }

@@ -13,7 +13,7 @@ use chereme_motion::RecordingInstant;
 use chereme_sign::ErrorRemedy;
 use chereme_sign::TierStereotype;
 
-use super::{FileReport, ImportJob, annotation_row, transcript_tiers_parents_first, with_coded_state};
+use super::{FileReport, ImportJob, annotation_row, with_coded_state};
 use crate::db::stored_columns::AnnotationOrigin;
 use crate::db::stored_tiers::{self, AnnotationRow, TierRow};
 use crate::error::CorpusResult;
@@ -180,7 +180,7 @@ pub(super) fn update_annotations(
         }
     }
     // The row of a parent must be known before the annotations below it are written.
-    let order = transcript_tiers_parents_first(sides.transcript);
+    let order = sides.transcript.tiers_parents_first();
     for &tier in &order {
         job.report_progress(progress)?;
         let name = &sides.transcript.tiers[tier].name;

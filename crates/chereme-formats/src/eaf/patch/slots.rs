@@ -172,14 +172,7 @@ impl EafPatchWork<'_, '_> {
 
     /// Finds slots for new annotations; those of a Time_Subdivision share them.
     fn place_added(&self, slots: &mut FileTimeSlots, refs: &mut SlotReferences) -> Option<()> {
-        let depth = |tier: usize| {
-            std::iter::successors(Some(tier), |at| self.after.tiers[*at].parent)
-                .take(self.after.tiers.len() + 1)
-                .count()
-        };
-        let mut order: Vec<usize> = (0..self.after.tiers.len()).collect();
-        order.sort_by_key(|tier| (depth(*tier), *tier));
-        for tier in order {
+        for tier in self.after.tiers_parents_first() {
             if !is_alignable(self.after, tier) {
                 continue;
             }
