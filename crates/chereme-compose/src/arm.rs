@@ -9,6 +9,7 @@
 
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::ik::{FabrikOptions, TwoBoneOptions, solve_fabrik, two_bone};
+use chereme_motion::interpolation::smooth_step;
 use chereme_motion::{ArmChain, BodySide};
 
 use crate::body::SignerFrame;
@@ -346,7 +347,7 @@ impl<'a> ArmSource<'a> {
         // A pole in model space is a guess, so that a straight source arm says little about the swivel.
         let pole_trust = match self.pole {
             ElbowPole::Arm(_) => 1.0,
-            ElbowPole::Model(_) => smooth_share(off_line(was) / (STRAIGHT_ELBOW_SHARE * full_arm_length(was))),
+            ElbowPole::Model(_) => smooth_step(off_line(was) / (STRAIGHT_ELBOW_SHARE * full_arm_length(was))),
         };
         Some(ArmStep {
             moves,
@@ -451,7 +452,7 @@ fn softened(extensions: &[f64], frame_time: f64) -> Vec<f64> {
         for at in frame.saturating_sub(near)..(frame + near).min(soft.len()) {
             let away = at.abs_diff(frame) as f64 / near.max(1) as f64;
             // In full for the first half of the time, then smoothly down to the least.
-            let share = smooth_share(2.0 - 2.0 * away);
+            let share = smooth_step(2.0 - 2.0 * away);
             soft[at] = soft[at].max(SOFT_REACH_SHARES.0 + (wanted - SOFT_REACH_SHARES.0) * share);
         }
     }
@@ -494,7 +495,7 @@ fn twist_about(q: DQuat, axis: DVec3) -> (f64, f64) {
 fn elbow_bend_direction(arm: [DVec3; 3], pole: DVec3, grown: f64) -> DVec3 {
     let clear = STRAIGHT_ELBOW_SHARE * full_arm_length(arm);
     let elbow_offset = (arm[1] - arm[0]).reject_from_normalized(shoulder_wrist_direction(arm));
-    let mixed = elbow_offset + pole * (clear * (1.0 - smooth_share(elbow_offset.length() / clear)) * grown);
+    let mixed = elbow_offset + pole * (clear * (1.0 - smooth_step(elbow_offset.length() / clear)) * grown);
     mixed
         .try_normalize()
         .filter(|_| mixed.length() > 1e-9 * clear)
@@ -511,15 +512,9 @@ fn off_line(arm: [DVec3; 3]) -> f64 {
 /// Returns the weight of the source's swivel in the arm's new direction: 0 for an arm that is folded on the shoulder,
 /// or whose old direction is opposite to the new one.
 fn swivel_weight(was: [DVec3; 3], is: [DVec3; 3]) -> f64 {
-    let folded = smooth_share(was[0].distance(was[2]) / (FOLDED_ARM_SHARE * full_arm_length(was)));
+    let folded = smooth_step(was[0].distance(was[2]) / (FOLDED_ARM_SHARE * full_arm_length(was)));
     // In full up to 120 degrees between the two lines, nothing at 180.
-    folded * smooth_share((1.0 + shoulder_wrist_direction(was).dot(shoulder_wrist_direction(is))) / 0.5)
-}
-
-/// Returns a smooth share from 0 to 1 whose slope is 0 at both ends.
-fn smooth_share(share: f64) -> f64 {
-    let share = share.clamp(0.0, 1.0);
-    share * share * (3.0 - 2.0 * share)
+    folded * smooth_step((1.0 + shoulder_wrist_direction(was).dot(shoulder_wrist_direction(is))) / 0.5)
 }
 
 /// Moves wrist and hand of an idle arm to their targets, with a hanging elbow: down, and a little to the arm's own

@@ -71,6 +71,13 @@ impl InterpolationKind {
     }
 }
 
+/// Returns a smooth share from 0 to 1 whose slope is 0 at both ends (Hermite's cubic); shares outside count as the ends.
+#[must_use]
+pub fn smooth_step(share: f64) -> f64 {
+    let share = share.clamp(0.0, 1.0);
+    share * share * (3.0 - 2.0 * share)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

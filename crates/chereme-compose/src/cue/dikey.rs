@@ -6,6 +6,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use chereme_motion::interpolation::smooth_step;
 use serde::Serialize;
 
 /// A key: the number of its placement (0 is rest) and of its shape.
@@ -383,7 +384,7 @@ impl DikeyDictionary {
                 Some(dikey) => warped(dikey, share, end - start, self.rate),
                 None => {
                     // A ramp that begins and ends at rest.
-                    let eased = share * share * (3.0 - 2.0 * share);
+                    let eased = smooth_step(share);
                     let both = own_start.iter().zip(&own_end);
                     both.map(|(a, b)| a + (b - a) * eased).collect()
                 }

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use chereme_motion::glam::DQuat;
+use chereme_motion::interpolation::smooth_step;
 use chereme_motion::{BodyPart, RecordingInstant, TimeSpan};
 use chereme_sign::SignComponent;
 use chereme_sign::milestones::{
@@ -182,7 +183,7 @@ impl ExpressionCourse {
         };
         let rise = (seconds - in_from) / (in_to - in_from);
         let fall = (out_to - seconds) / (out_to - out_from);
-        smooth_expression_share(rise).min(smooth_expression_share(fall))
+        smooth_step(rise).min(smooth_step(fall))
     }
 
     /// Returns the time in the movement for a time of the expression.
@@ -196,11 +197,6 @@ impl ExpressionCourse {
         };
         RecordingInstant::from_seconds(back.expression_moment(inside)).clamp(there[0], there[4])
     }
-}
-
-fn smooth_expression_share(share: f64) -> f64 {
-    let share = share.clamp(0.0, 1.0);
-    share * share * (3.0 - 2.0 * share)
 }
 
 /// Applies the other performance's rotations to head and trunk; returns the number of joints of each.

@@ -5,6 +5,7 @@ use std::ops::Range;
 use chereme_motion::ModelPose;
 use glam::{Quat, Vec2, Vec3};
 
+use super::solids::smooth_step;
 use crate::mesh::{MeshVertex, RingGrid, TriangleMesh, smooth_vertex_normals};
 use crate::palette::RgbColour;
 
@@ -282,11 +283,11 @@ impl BodyAssembly {
         let start = self.mesh.vertices.len();
         for facing in grid.vertex_facings() {
             // The colours change softly where front and back meet.
-            let share = ((facing + 0.35) / 0.7).clamp(0.0, 1.0);
+            let share = smooth_step((facing + 0.35) / 0.7);
             self.mesh.vertices.push(MeshVertex {
                 position: Vec3::ZERO,
                 normal: Vec3::Y,
-                colour: paint.back.mix_colour(paint.front, share * share * (3.0 - 2.0 * share)),
+                colour: paint.back.mix_colour(paint.front, share),
                 group: paint.group,
             });
         }

@@ -204,7 +204,7 @@ fn ear(mesh: &mut TriangleMesh, sign: f32, palette: &FigurePalette) {
         |point| {
             // Narrow towards the lobe, hollow in the middle.
             let up = Quat::from_rotation_x(-FRAC_PI_2) * point;
-            let low = 1.0 - 0.28 * smooth_ear_step(-up.y);
+            let low = 1.0 - 0.28 * super::solids::smooth_step(-up.y);
             let hollow = up.x * sign > 0.25 && up.y.abs() < 0.6 && (up.z - 0.1).abs() < 0.5;
             let colour = if hollow {
                 skin.scale_colour(0.84)
@@ -215,11 +215,7 @@ fn ear(mesh: &mut TriangleMesh, sign: f32, palette: &FigurePalette) {
         },
         group::HEAD_GROUP,
     );
-    return mesh.append_mesh(&full_mesh);
-
-    fn smooth_ear_step(v: f32) -> f32 {
-        super::solids::smooth_step(v)
-    }
+    mesh.append_mesh(&full_mesh);
 }
 
 /// Adds the upper and the lower row of teeth, as far as the open mouth shows them.

@@ -3,6 +3,7 @@
 use glam::{DQuat, DVec3};
 
 use super::{IkError, finite};
+use crate::interpolation::smooth_step;
 
 /// The treatment of the ends of the reach in [`two_bone`].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -138,9 +139,8 @@ fn swivel_direction(source: [DVec3; 3], line: DVec3, beside: f64, pole: Option<D
     let [root, middle, end] = source;
     let clear = CLEAR_SWIVEL_SHARE * (root.distance(middle) + middle.distance(end));
     let middle_offset = (middle - root).reject_from_normalized(line);
-    let share = (middle_offset.length() / clear).clamp(0.0, 1.0);
     // A smooth step, so that trust in the source's swivel sets in without a kink.
-    let trust = share * share * (3.0 - 2.0 * share);
+    let trust = smooth_step(middle_offset.length() / clear);
     // The pole helps only an arm that bends more than its source did.
     let grown = ((beside - middle_offset.length()) / clear).clamp(0.0, 1.0);
     let raw_pole = pole.unwrap_or(DVec3::ZERO).normalize_or_zero();
