@@ -13,7 +13,7 @@ use crate::image::RasterImage;
 use crate::mesh::{MeshVertex, TriangleMesh, trail_mesh};
 use crate::palette::{FigurePalette, PaperTheme, RgbColour};
 use crate::raster::{FigureRaster, FigureStyle};
-use crate::sheet::PictureProgress;
+use crate::sheet::{PictureProgress, draw_column_label, draw_view_name};
 use crate::view::FigureView;
 
 /// The number of frames that are sampled to find the space of the points.
@@ -312,20 +312,13 @@ pub fn points_sheet(
             let mut picture = raster.draw_mesh_picture(&mesh, &camera, cell, style);
             // One name for each row is enough.
             if column == 0 {
-                let chip = [
-                    font::text_width_dots(view.figure_view_name()) as i64 + 8,
-                    font::CELL_HEIGHT_DOTS as i64 + 3,
-                ];
-                picture.fill_image_rectangle([0, 0], chip, theme.theme_paper_colour());
-                picture.draw_image_text(view.figure_view_name(), [4, 0], 1, theme.theme_text_colour());
+                draw_view_name(&mut picture, view, theme);
             }
             sheet.paste_image(&picture, [x, head + row * (cell[1] + CLOUD_PICTURE_GAP_PIXELS)]);
         }
         let seconds = markers.marker_times().frame_time_instant(frame).instant_seconds();
-        let label = font::fit_text_width(&format!("{seconds:.2} s  #{frame}"), cell[0]);
         let y = head + views.len() * (cell[1] + CLOUD_PICTURE_GAP_PIXELS);
-        let inset = (cell[0] - font::text_width_dots(&label).min(cell[0])) / 2;
-        sheet.draw_image_text(&label, [(x + inset) as i64, y as i64], 1, theme.theme_text_colour());
+        draw_column_label(&mut sheet, &format!("{seconds:.2} s  #{frame}"), [x, y], cell[0], theme);
     }
     Ok(sheet)
 }

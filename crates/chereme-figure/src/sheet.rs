@@ -9,7 +9,7 @@ use crate::error::{FigureError, checked_size, checked_view};
 use crate::font;
 use crate::image::RasterImage;
 use crate::mesh::TriangleMesh;
-use crate::palette::FigurePalette;
+use crate::palette::{FigurePalette, PaperTheme};
 use crate::raster::{FigureRaster, FigureStyle};
 use crate::view::{ClipFraming, FigureView, active_signing_frames, stroke_frame};
 
@@ -156,22 +156,39 @@ pub fn contact_sheet(
             let camera = framing.framing_camera(view, aspect, &pose, anatomy);
             let mut picture = raster.draw_mesh_picture(&mesh, &camera, cell, &options.style);
             if column == 0 {
-                let chip = [
-                    font::text_width_dots(view.figure_view_name()) as i64 + 8,
-                    font::CELL_HEIGHT_DOTS as i64 + 3,
-                ];
-                picture.fill_image_rectangle([0, 0], chip, theme.theme_paper_colour());
-                picture.draw_image_text(view.figure_view_name(), [4, 0], 1, theme.theme_text_colour());
+                draw_view_name(&mut picture, view, theme);
             }
             sheet.paste_image(&picture, [x, head + row * (cell[1] + SHEET_CELL_GAP_PIXELS)]);
         }
         let frame_label = sheet_frame_label(clip, frame);
-        let label = font::fit_text_width(&frame_label, cell[0]);
         let y = head + options.views.len() * (cell[1] + SHEET_CELL_GAP_PIXELS);
-        let inset = (cell[0] - font::text_width_dots(&label).min(cell[0])) / 2;
-        sheet.draw_image_text(&label, [(x + inset) as i64, y as i64], 1, theme.theme_text_colour());
+        draw_column_label(&mut sheet, &frame_label, [x, y], cell[0], theme);
     }
     Ok(sheet)
+}
+
+/// Names the view of a picture in its corner.
+pub(crate) fn draw_view_name(picture: &mut RasterImage, view: FigureView, theme: PaperTheme) {
+    let name = view.figure_view_name();
+    let chip = [
+        font::text_width_dots(name) as i64 + 8,
+        font::CELL_HEIGHT_DOTS as i64 + 3,
+    ];
+    picture.fill_image_rectangle([0, 0], chip, theme.theme_paper_colour());
+    picture.draw_image_text(name, [4, 0], 1, theme.theme_text_colour());
+}
+
+/// Writes a text in the middle below a column `width` pixels wide, whose lower left corner is given.
+pub(crate) fn draw_column_label(
+    sheet: &mut RasterImage,
+    text: &str,
+    [x, y]: [usize; 2],
+    width: usize,
+    theme: PaperTheme,
+) {
+    let label = font::fit_text_width(text, width);
+    let inset = (width - font::text_width_dots(&label).min(width)) / 2;
+    sheet.draw_image_text(&label, [(x + inset) as i64, y as i64], 1, theme.theme_text_colour());
 }
 
 /// Draws one small picture of the stroke of `clip` from the front; `size` is columns and rows.
