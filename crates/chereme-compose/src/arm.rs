@@ -101,10 +101,12 @@ pub(crate) fn move_wrist(
     let [soft, near] = source.soft(targets, &helps, work.rate.frame_time());
     let mut steps = Vec::with_capacity(work.frames);
     for (frame, help) in helps.into_iter().enumerate() {
+        // A hand that turns needs its arm solved even where the wrist stays.
         let moves = hands.is_some() || source.source_wrists()[frame] != targets[frame];
         let target = source.kept_off(frame, targets[frame], help, near[frame]);
         steps.push(source.solve_arm_step(frame, target, help, moves, soft[frame], solver)?);
     }
+    // Only the analytic solution leaves the swivel of the elbow open.
     if solver == ArmSolverMethod::Analytic {
         swivel::swivel_arm_steps(&mut steps, work.rate.frame_time());
         swivel::ease_elbow_jumps(&source, &mut steps, work.rate.frame_time());

@@ -162,6 +162,7 @@ fn stretch_path_shares(stretch: &CapturedStretch<'_>) -> Option<Vec<f64>> {
         .iter()
         .map(|displacement| displacement.length_squared())
         .sum();
+    // The share of a path that hardly moves is noise.
     if square_sum.sqrt() < LEAST_TURN {
         return None;
     }

@@ -181,6 +181,7 @@ fn from_neighbour(
             .iter()
             .take(MAX_EXAMPLE_TRIES)
         {
+            // Another signer's hand differs by more than the neighbouring value does.
             if setting.signer.is_none() || example.signer != setting.signer {
                 continue;
             }
@@ -188,6 +189,7 @@ fn from_neighbour(
                 continue;
             };
             let (a, b, c) = (pose.angles.to_array(), angles.to_array(), other.to_array());
+            // How this signer makes the neighbour differ from the inventory carries over to the wanted value.
             let changed = std::array::from_fn(|i| a[i] + b[i] - c[i]);
             return Ok(Some(HandPose {
                 value: Some(wanted.id.clone()),

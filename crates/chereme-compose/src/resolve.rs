@@ -101,6 +101,7 @@ pub fn restore_recipe_inputs(
         let mut material = sources
             .find_material(&stored.address)
             .map_err(|error| fault(error.into()))?;
+        // The same name may stand for new movement, from which another sign would come.
         if material.hash != stored.hash {
             let address = stored.address.clone();
             return Err(fault(StepError::Changed { address }));
@@ -263,12 +264,14 @@ impl RecipeResolver<'_> {
         let same = of.as_ref().is_some_and(|of| of.is_same_node(&pipe.of));
         let on_faces = |step: &Step| matches!(step, Step::Nonmanual(_));
         let is_sign = matches!(*pipe.of, RecipeNode::Sign(_));
+        // A sign that is only given a face may be one without movement.
         self.takes_faces = is_sign && pipe.steps.iter().all(on_faces);
         let setting = self.resolve_node(&pipe.of, &path.operand_path(), of)?;
         self.takes_faces = false;
         for (n, step) in pipe.steps.iter().enumerate() {
             let path = path.operator_step_path(n);
             let same_former = former.as_ref().filter(|_| same);
+            // An unchanged step keeps its choices, so that editing one card does not change what others show.
             if let Some(known) = same_former.and_then(|former| former.former_step_path(step)) {
                 self.copy_part_answers(&known, &path);
                 continue;

@@ -216,6 +216,7 @@ impl JointColumns {
         let mut wanted = vec![false; len];
         for joint in joints {
             for above in work.skeleton.joint_ancestors(joint) {
+                // Above a joint that is wanted all are.
                 if std::mem::replace(&mut wanted[above], true) {
                     break;
                 }
@@ -225,6 +226,7 @@ impl JointColumns {
             positions: vec![None; len],
             rotations: vec![None; len],
         };
+        // Parents come first in a skeleton, so that each finds its parent done.
         for joint in (0..len).filter(|&joint| wanted[joint]) {
             let channel = &work.channels[joint];
             let offset = work.skeleton.joint_at(joint).offset;
@@ -280,6 +282,7 @@ impl WorkingClip {
         for channel in &mut self.channels {
             let old = &channel.rotations;
             let new_rotations = at.iter().map(|&at| match between(at) {
+                // Whole frames stay bit for bit as they were captured.
                 (first, _, 0.0) => old[first],
                 (first, second, share) => old[first].slerp(old[second], share).normalize(),
             });

@@ -255,6 +255,7 @@ fn calm_forearm(was: &[DQuat], turns: &mut [ArmJointTurns], stay: &[bool], frame
         (seen * turn.bone, seen * mark)
     }));
     let trust = turns.iter().zip(stay).map(|(turn, stay)| match stay {
+        // A frame that stays as it was captured outweighs any computed one.
         true => 2.0,
         false => (2.0 * turn.reliability).min(1.0),
     });

@@ -91,6 +91,7 @@ fn move_cue_fingers(
     for frame in 0..work.frames {
         let (n, share) = target_approach_share(targets, cue_frame_seconds(work, frame), |times| (times.d1, times.d2));
         let before = shape(targets[n.saturating_sub(1)].shape);
+        // Before the first target the hand has the first shape already.
         let (Some(before), Some(after)) = (before, shape(targets[n].shape)) else {
             return Err(StepError::Input);
         };

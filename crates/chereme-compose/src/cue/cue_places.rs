@@ -64,8 +64,10 @@ impl CueHeadSpace {
             chest: 0.0,
             hand: measures.hand / size,
         };
+        // The chin is the landmark that skeletons have; places of cues count from the middle of the head.
         head.origin = chin - head.head_to_model_direction(CHIN_HEAD_POSITION) * size;
         let throat = anatomy.landmark_place_position(skeleton, model, "throat");
+        // Without a neck the throat is where it is below the head of an average body, in head sizes.
         head.throat = throat.map_or(DVec3::new(0.0, -0.23, 0.25), |at| head.model_to_head_point(at));
         let front_landmarks =
             ["upper-chest", "chest"].map(|name| anatomy.landmark_place_position(skeleton, model, name));

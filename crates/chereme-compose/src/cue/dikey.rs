@@ -128,6 +128,7 @@ impl DikeyDictionary {
         for (n, dikey) in dikeys.iter().enumerate() {
             by_ends.entry((dikey.from, dikey.to)).or_default().push(n);
             let (first, last) = (&dikey.frames[0], &dikey.frames[dikey.frames.len() - 1]);
+            // Each movement begins at one key and ends at the next, so that both ends say how a key looks.
             at_key.entry(dikey.from).or_default().push(first);
             at_key.entry(dikey.to).or_default().push(last);
         }
@@ -149,6 +150,7 @@ impl DikeyDictionary {
         let scale = weights
             .iter()
             .zip(&squares)
+            // A parameter that never differs must not divide by nothing.
             .map(|(weight, square)| (*weight, (square / count.max(1.0)).sqrt().max(1e-9)))
             .collect();
         Self {
@@ -250,6 +252,7 @@ impl DikeyDictionary {
         length: f64,
         costs: &DikeyCostWeights,
     ) -> Vec<DikeyCandidate> {
+        // The shape of fingers is kept in any case; the place may be that of a neighbour.
         let recorded_dikeys = self
             .by_ends
             .get(&(from, to))

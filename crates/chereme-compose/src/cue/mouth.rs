@@ -30,6 +30,7 @@ pub(super) fn mouth_sound_curves(
         let each = (end - start) / symbols.len().max(1) as f64;
         for (n, symbol) in symbols.iter().enumerate() {
             let start = start + n as f64 * each;
+            // Sounds of the throat and the tongue cannot be seen.
             if FacialExpression::from_nonmanual_code("mouthing", symbol).is_none() {
                 continue;
             }

@@ -169,6 +169,7 @@ pub(crate) fn cut_work_span(
         return Err(none());
     }
     let mut did = vec![describe_cut_frames(work, &frames)];
+    // A span that is too long is understood, and said.
     if to > full_span.span_end_instant() {
         did.push(format!("the movement ends at {}", full_span.span_end_instant()));
     }

@@ -53,6 +53,7 @@ pub(crate) fn transfer_expression(
     }
     let per_second = other.rate.per_second();
     let mut start = other.clone();
+    // The posture at M1 is rest: the trunk takes over only how it differs from it.
     start.resample_channels(&[given_milestones.milestone_times()[0].instant_seconds() * per_second]);
     let seconds = |frame: usize| work.rate.frame_start_instant(frame).instant_seconds();
     let sample_positions: Vec<f64> = (0..work.frames)
@@ -110,6 +111,7 @@ fn target_milestones(
         ),
         None => full_span,
     };
+    // Without annotated signs the expression spans the part, with the share of its phases kept.
     signed_milestones(work, part, &given.function).unwrap_or_else(|| {
         let given_milestones = given.milestones;
         let share = |m3: RecordingInstant| {
@@ -120,6 +122,7 @@ fn target_milestones(
             .m3
             .map(|m3| share(m3).clamp(0.0, 1.0) * part.span_seconds());
         ExpressionMilestones {
+            // An expression begins before the first sign and fades after the last.
             m1: part.span_start_instant().shifted_instant(-UTTERANCE_EDGE_MICROS),
             m2: part.span_start_instant(),
             m3: m3.map(|after| RecordingInstant::from_seconds(part.span_start_instant().instant_seconds() + after)),

@@ -221,6 +221,7 @@ pub(crate) fn indicate_places(
             value: spot.to_string(),
             what: "landmark that this skeleton has",
         })?;
+        // A place is meant exactly; a direction has no distance, so that it may be nearer.
         if !matches!(spot, SigningSpot::Towards(_) | SigningSpot::You) {
             return Ok(goal_spot);
         }
@@ -255,6 +256,7 @@ pub(crate) fn indicate_places(
             .map(|frame| {
                 let nearest = stroke.nearest_frame(frame);
                 let share = shares[nearest - stroke.frames.start];
+                // The path is carried along by the line between its ends, and keeps how it bows from it.
                 let (old, new) = (start.lerp(end, share), from.lerp(to, share));
                 let moved = new + turn * (path[nearest] - old) - path[nearest];
                 stroke.point_between(frame, path[frame], path[frame] + moved)

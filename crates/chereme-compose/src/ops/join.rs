@@ -84,11 +84,13 @@ pub(crate) fn join_movements(
 ) -> Result<Vec<JoinReport>, StepError> {
     let frames = seam.offset + second.frames;
     check_length(first, frames)?;
+    // Nodes above the hips differ from file to file in how they share the place in the room.
     hold_above_hips(first, &mut second, seam.body.leave);
     let groups = crate::work::find_joint_groups(&first.skeleton, &first.anatomy);
     for (joint, group) in groups.iter().enumerate() {
         let cut = seam.cut_for_group(*group);
         let course = match group {
+            // Fingers change faster than arms, and have a learned course of their own.
             JointGroup::Fingers(_) => &courses.fingers,
             _ => &courses.arms,
         };

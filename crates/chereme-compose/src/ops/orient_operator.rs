@@ -186,6 +186,7 @@ pub(crate) fn orient_hands(
         let angle = DQuat::IDENTITY.angle_between(turn).to_degrees();
         did.push(format!("the {} hand is turned by {angle:.0}°", side.body_side_name()));
         let bend = wrist_bend(work, side).to_degrees();
+        // The direction was asked for, so that it is made and the bend is only said.
         if bend > MOST_BEND {
             did.push(format!(
                 "the {} wrist bends by {bend:.0}°, more than wrists can",

@@ -222,6 +222,7 @@ fn phase_boundary_frames(work: &WorkingClip) -> Vec<usize> {
         SignComponent::Placement,
         SignComponent::Configuration,
     ];
+    // The dominant hand leads, and its movement says more of phases than its shape.
     let phase_notes = sides.into_iter().find_map(|side| {
         components.into_iter().find_map(|component| {
             let about = NoteSubject::Component(component, None);

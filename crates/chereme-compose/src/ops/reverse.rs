@@ -81,6 +81,7 @@ pub(crate) fn reverse_movement(work: &mut WorkingClip) -> Vec<String> {
             continue;
         };
         match component_notes::backwards_value(*component, feature.as_deref(), value) {
+            // Most values are the same both ways.
             Some(other) if other == value => {}
             Some(other) => note.value = ComponentReading::Value(other),
             None => {

@@ -140,6 +140,7 @@ pub(crate) fn spell_letters(
     let frames = shown[0].last().map_or(1, |show| show.frames.end);
     join::check_length(work, frames)?;
     work.resample_channels(&vec![0.0; frames]);
+    // The notes of the body whose posture it is say nothing of the letters.
     work.notes.clear();
     let mut residual: f64 = 0.0;
     for (&side, shows) in sides.iter().zip(&shown) {

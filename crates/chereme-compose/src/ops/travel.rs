@@ -418,6 +418,7 @@ fn note_drawn_path(
     let all = stroke.frames.clone();
     for &side in sides {
         let shape = curve.map(MeasuredSpline::spline_shape_name);
+        // A circle ends where it began, and a path of several legs has no one direction.
         let one = match (path, curve) {
             (_, Some(curve)) if shape != Some("circle") && shape != Some("path") => {
                 component_notes::nearest_direction_name(frame.to_body(curve.spline_point_at(1.0)))

@@ -33,6 +33,7 @@ pub(super) fn find_placement_anchor(
 ) -> PlacementAnchor {
     let stroke_frames = stroke.frames.clone();
     let point = with.unwrap_or(RecipeHandPoint::Palm);
+    // Two hands have no single contact that could stand for the place of both.
     let [side] = *sides else {
         let spans = sides.iter().filter_map(|&side| body::held_placement_frames(work, side));
         let frames = spans.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end));
