@@ -3,7 +3,6 @@
 use super::tier_without_annotations;
 use crate::transcript::AnnotationTranscript;
 use crate::transcript::{AnnotationAddress, AnnotationTiming, TranscriptAnnotation, TranscriptTier};
-use chereme_motion::TimeSpan;
 use chereme_sign::TierStereotype;
 use chereme_sign::tier::subdivision_share;
 use std::collections::{BTreeMap, HashMap, HashSet};
