@@ -140,7 +140,7 @@ fn a_dry_run_that_is_stopped_gives_no_half_of_a_list() {
         dry_run: true,
         ..TierRoundOptions::default()
     };
-    let mut stop = |step: ProgressStep<'_>| match step.done {
+    let mut stop = |step: crate::ProgressStep<'_>| match step.done {
         0 => std::ops::ControlFlow::Continue(()),
         _ => std::ops::ControlFlow::Break(()),
     };
