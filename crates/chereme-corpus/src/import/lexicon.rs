@@ -7,7 +7,6 @@ use chereme_formats::ImportFinding;
 use chereme_formats::lexicon::{self, ComponentCoding, LexiconColumn, LexiconColumnMeaning, LexiconEntry, SignLexicon};
 use chereme_formats::roles::TierMapping;
 use chereme_formats::table::TableError;
-use chereme_sign::ErrorRemedy;
 use chereme_sign::query::NumberSpelling;
 use chereme_sign::text::{compose_accents, fold_text};
 use chereme_sign::{ComponentInventory, ComponentReading, InventoryValue, SignComponent};
