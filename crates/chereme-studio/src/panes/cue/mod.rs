@@ -18,7 +18,7 @@ use crate::model::generated::GeneratedClip;
 use crate::script::script_edit;
 use crate::words::{InterfaceText, cue_words as words, fill_text_braces, translate_library_message};
 use crate::work::{WorkId, WorkOutcome, WorkResult, analysis, recombining};
-use cue_data::{CueChoices, CueExercise, CuedReading, PhoneCorrections, translated_cue_key_name};
+use cue_data::{CueChoices, CueExercise, CuedReading, PhoneCorrections, PracticeItem, translated_cue_key_name};
 
 /// Time without changes, in seconds, after which a text is shown on the stage.
 const CUE_SETTLE_SECONDS: f64 = 0.5;
@@ -323,6 +323,29 @@ impl CuePane {
 
     fn practise(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
         let seed = (ui.input(|input| input.time) * 1e6) as u64;
+        let begun = self.choose_practice_set(ui, seen);
+        let mut cue_now = begun.is_some();
+        if let Some(items) = begun {
+            self.exercise = Some(CueExercise::from_practice_items(items, seed));
+        }
+        // It is taken out while the pane itself is used to show the word.
+        let Some(mut exercise) = self.exercise.take() else {
+            return;
+        };
+        ui.separator();
+        cue_now |= show_exercise(ui, seen, &mut exercise);
+        self.show_practice_view(ui, seen, out);
+        if cue_now && let Some(item) = exercise.cued_item() {
+            let reading = cue_data::read_cued_text(&item.input, &self.choices, &PhoneCorrections::new());
+            self.shows = false;
+            self.show_cued_movement(&reading, true, out);
+            out.send_command(WindowCommand::Look);
+        }
+        self.exercise = Some(exercise);
+    }
+
+    /// Shows the sets of keys and words; returns the one that the user begins with.
+    fn choose_practice_set(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) -> Option<Vec<PracticeItem>> {
         let mut begun = None;
         ui.horizontal_wrapped(|ui| {
             ui.label(seen.say_text(words::KEY_SET));
@@ -356,50 +379,11 @@ impl CuePane {
                 begun = word_set;
             }
         });
-        let mut cue_now = false;
-        if let Some(items) = begun {
-            self.exercise = Some(CueExercise::from_practice_items(items, seed));
-            cue_now = true;
-        }
-        // It is taken out while the pane itself is used to show the word.
-        let Some(mut exercise) = self.exercise.take() else {
-            return;
-        };
-        ui.separator();
-        ui.strong(seen.say_text(words::WHICH));
-        ui.horizontal_wrapped(|ui| {
-            for (at, item) in exercise.items.clone().into_iter().enumerate() {
-                let chosen = exercise.answered == Some(at);
-                if ui.add(Button::selectable(chosen, item.word)).clicked() {
-                    exercise.record_answer(at);
-                }
-            }
-        });
-        let word = exercise.cued_item().map(|item| item.word.clone()).unwrap_or_default();
-        match exercise.answered {
-            Some(answer) if answer == exercise.now => {
-                ui.label(fill_text_braces(seen.say_text(words::RIGHT), &[("word", &word)]));
-            }
-            Some(_) => {
-                ui.label(fill_text_braces(seen.say_text(words::WRONG), &[("word", &word)]));
-            }
-            None if exercise.revealed => {
-                ui.label(&word);
-            }
-            None => {}
-        }
-        ui.horizontal_wrapped(|ui| {
-            if ui.button(seen.say_text(words::NEXT)).clicked() {
-                exercise.next();
-                cue_now = true;
-            }
-            cue_now |= ui.button(seen.say_text(words::AGAIN)).clicked();
-            if ui.button(seen.say_text(words::REVEAL)).clicked() {
-                exercise.revealed = true;
-            }
-            let values: [(&str, &dyn std::fmt::Display); 2] = [("right", &exercise.right), ("all", &exercise.all)];
-            ui.weak(fill_text_braces(seen.say_text(words::SCORE), &values));
-        });
+        begun
+    }
+
+    /// Shows the speed of the movement and the sides from which it is seen.
+    fn show_practice_view(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
         ui.horizontal_wrapped(|ui| {
             let label = ui.label(seen.say_text(words::SPEED));
             let mut speed = self.speed.unwrap_or(1.0);
@@ -419,13 +403,6 @@ impl CuePane {
                 out.send_command(WindowCommand::Do(Action::ViewFront));
             }
         });
-        if cue_now && let Some(item) = exercise.cued_item() {
-            let reading = cue_data::read_cued_text(&item.input, &self.choices, &PhoneCorrections::new());
-            self.shows = false;
-            self.show_cued_movement(&reading, true, out);
-            out.send_command(WindowCommand::Look);
-        }
-        self.exercise = Some(exercise);
     }
 
     fn show_cue_slips(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
@@ -556,4 +533,44 @@ impl PaneInterface for CuePane {
             }
         }
     }
+}
+
+/// Shows the words of an exercise, the answer and the score; returns whether a word is to be cued.
+fn show_exercise(ui: &mut Ui, seen: &PaneInput<'_>, exercise: &mut CueExercise) -> bool {
+    let mut cue_now = false;
+    ui.strong(seen.say_text(words::WHICH));
+    ui.horizontal_wrapped(|ui| {
+        for (at, item) in exercise.items.clone().into_iter().enumerate() {
+            let chosen = exercise.answered == Some(at);
+            if ui.add(Button::selectable(chosen, item.word)).clicked() {
+                exercise.record_answer(at);
+            }
+        }
+    });
+    let word = exercise.cued_item().map(|item| item.word.clone()).unwrap_or_default();
+    match exercise.answered {
+        Some(answer) if answer == exercise.now => {
+            ui.label(fill_text_braces(seen.say_text(words::RIGHT), &[("word", &word)]));
+        }
+        Some(_) => {
+            ui.label(fill_text_braces(seen.say_text(words::WRONG), &[("word", &word)]));
+        }
+        None if exercise.revealed => {
+            ui.label(&word);
+        }
+        None => {}
+    }
+    ui.horizontal_wrapped(|ui| {
+        if ui.button(seen.say_text(words::NEXT)).clicked() {
+            exercise.next();
+            cue_now = true;
+        }
+        cue_now |= ui.button(seen.say_text(words::AGAIN)).clicked();
+        if ui.button(seen.say_text(words::REVEAL)).clicked() {
+            exercise.revealed = true;
+        }
+        let values: [(&str, &dyn std::fmt::Display); 2] = [("right", &exercise.right), ("all", &exercise.all)];
+        ui.weak(fill_text_braces(seen.say_text(words::SCORE), &values));
+    });
+    cue_now
 }
