@@ -246,7 +246,7 @@ fn read_sampler_keys(
     {
         return Err(GltfError::Packed(extension.clone()));
     }
-    // Weights of three or four targets are told apart from vectors by the shape of their accessor.
+    // Weights of three or four targets differ from vectors by the shape of their accessor.
     let is_weights = !matches!(width, 3 | 4)
         || data
             .document

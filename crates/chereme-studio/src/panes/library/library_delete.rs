@@ -202,7 +202,7 @@ fn ask_about_deletion(
                 if ui.button(seen.say_text(delete)).clicked() {
                     answer = DeletionAnswer::Do(DependentsPolicy::Delete);
                 }
-                // Annotations cannot stay without their recording; made signs can.
+                // Annotations cannot stay without their recording; generated signs can.
                 if !annotated && ui.button(seen.say_text(words::DELETE_KEEPING)).clicked() {
                     answer = DeletionAnswer::Do(DependentsPolicy::Keep);
                 }
