@@ -8,6 +8,7 @@ use crate::Corpus;
 use crate::curves::face_stage;
 use crate::db::lexicons::{self, LexiconRow};
 use crate::db::signs::{self, TokenRow};
+use crate::db::stored_attributes;
 use crate::db::stored_contents as rows;
 use crate::db::stored_inventories::load_inventory_rows as inventory_rows;
 use crate::db::stored_recordings::{self, MediaTrackRow, RecordingRow, SignerRow};
@@ -40,6 +41,8 @@ pub struct CorpusOverview {
     pub signers: Vec<SignerRow>,
     /// The inventories, oldest first.
     pub inventories: Vec<StoredInventory>,
+    /// The names of the attributes of signs, in order.
+    pub attributes: Vec<String>,
     /// The saved searches, by name.
     pub searches: Vec<KeptSearch>,
     /// The newest operations, the newest first.
@@ -122,6 +125,7 @@ impl Corpus {
                 .into_iter()
                 .map(inventories::stored_inventory_from_row)
                 .collect::<CorpusResult<_>>()?,
+            attributes: stored_attributes::list_attribute_names(&reading)?,
             searches: saved_search::list_saved_searches(&reading)?,
             operations: history_log(&reading, operations)?,
             conflicts: crate::merge::undecided_conflicts(&reading)?,

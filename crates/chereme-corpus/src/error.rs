@@ -80,6 +80,8 @@ pub enum CorpusError {
     Several {
         /// The failed changes, each with its place.
         errors: Vec<CorpusError>,
+        /// The remedy for all of them; without it that of the first.
+        remedy: Option<ErrorRemedy>,
     },
     /// The caller stopped the work; nothing was changed.
     #[error("stopped; the corpus is as it was before")]
@@ -157,6 +159,11 @@ impl CorpusError {
         }
     }
 
+    /// Returns the error of a request with these faults.
+    pub fn from_error_list(errors: Vec<Self>) -> Self {
+        Self::Several { errors, remedy: None }
+    }
+
     /// Returns the error as one of a thing that holds nothing of what is asked for, such as a recording without markers.
     /// Work on many things leaves that one out.
     #[must_use]
@@ -203,7 +210,7 @@ impl CorpusError {
     /// Returns the error with advice.
     #[must_use]
     pub fn with_advice(mut self, advice: impl Into<ErrorRemedy>) -> Self {
-        if let Self::Wrong { remedy, .. } = &mut self {
+        if let Self::Wrong { remedy, .. } | Self::Several { remedy, .. } = &mut self {
             *remedy = Some(advice.into());
         }
         self
@@ -231,7 +238,7 @@ impl CorpusError {
     /// Returns the message in the words of `say`, which gets each part of a list of failures alone.
     pub fn spoken_error_message(&self, language: InterfaceLanguage, say: &dyn Fn(&str) -> String) -> String {
         match self {
-            Self::Several { errors } => join_error_messages(errors, language, say),
+            Self::Several { errors, .. } => join_error_messages(errors, language, say),
             other => say(&other.to_string()),
         }
     }
@@ -250,7 +257,7 @@ impl CorpusError {
                 "" => step.step.clone(),
                 path => format!("{} (at {path})", step.step),
             }),
-            Self::Several { errors } => errors.first().and_then(Self::error_place),
+            Self::Several { errors, .. } => errors.first().and_then(Self::error_place),
             _ => None,
         }
     }
@@ -285,7 +292,7 @@ impl CorpusError {
             Self::Wrong { remedy, .. } => remedy.clone(),
             Self::Query(query) => query.remedy.clone(),
             Self::Step(step) => Some(step.remedy.clone()),
-            Self::Several { errors } => errors.first().and_then(Self::error_remedy),
+            Self::Several { errors, remedy } => remedy.clone().or_else(|| errors.first()?.error_remedy()),
             Self::Stopped | Self::Follows(_) => None,
         }
     }

@@ -75,9 +75,9 @@ impl Corpus {
         };
         let report = match self.annotate_all(&new, &changes, options, faults, progress) {
             Err(error @ (CorpusError::Wrong { .. } | CorpusError::Follows(_))) => {
-                return Err(CorpusError::Several { errors: vec![error] });
+                return Err(CorpusError::from_error_list(vec![error]));
             }
-            Err(CorpusError::Several { mut errors }) => {
+            Err(CorpusError::Several { mut errors, .. }) => {
                 // A column that was not recognised may be the one that the rows lack.
                 let unused = findings.iter().filter(|finding| finding.line == Some(1));
                 errors.extend(unused.map(|finding| {
@@ -86,7 +86,7 @@ impl Corpus {
                         .with_advice("the columns are recording, tier, start, end, duration, value, action, id, parent")
                 }));
                 errors.sort_by_key(error_line_number);
-                return Err(CorpusError::Several { errors });
+                return Err(CorpusError::from_error_list(errors));
             }
             other => other?,
         };

@@ -117,9 +117,7 @@ impl Corpus {
                     _ => error,
                 }
             });
-            return Err(CorpusError::Several {
-                errors: errors.collect(),
-            });
+            return Err(CorpusError::from_error_list(errors.collect()));
         }
         let changes: Vec<_> = plan
             .adds

@@ -355,8 +355,7 @@ impl<'a> AnnotationChangeRun<'a> {
             0 => {}
             1 if changes <= 1 => return Err(self.faults.remove(0)),
             _ => {
-                let errors = self.faults;
-                return Err(CorpusError::Several { errors });
+                return Err(CorpusError::from_error_list(self.faults));
             }
         }
         for scope in self.scopes.values() {

@@ -508,7 +508,7 @@ fn a_list_of_changes_is_applied_whole_or_not_at_all() {
     let text = "add G 0-100 BOL; add G 50-150 CHAT; add G 200-300 OR; add C 0-90 XYZ";
     let error = annotate(&mut corpus, text).expect_err("two faults");
     assert!(
-        matches!(&error, CorpusError::Several { errors } if errors.len() == 2),
+        matches!(&error, CorpusError::Several { errors, .. } if errors.len() == 2),
         "{error}"
     );
     assert_eq!(rows(corpus.store.read_connection()), before);

@@ -1,5 +1,6 @@
 //! The same work on the tiers of many recordings, as one operation.
 
+use chereme_sign::ErrorRemedy;
 use rusqlite::Connection;
 use serde::Serialize;
 
@@ -27,6 +28,8 @@ pub enum TierRoundScope {
     Query(String),
     /// Those of a signer, or with this name, where `*` stands for any letters; or `recording:3`.
     Pattern(String),
+    /// Those with these row ids.
+    Recordings(Vec<i64>),
 }
 
 /// What is done with the tiers of each recording. Names of tiers are as in [`TierSelection`](super::TierSelection).
@@ -169,7 +172,8 @@ impl Corpus {
             }
             let is_listed = options.dry_run || (options.skip && report.recordings.len() > refusals.len());
             if !refusals.is_empty() && !is_listed {
-                return Err(CorpusError::Several { errors: refusals });
+                let skip = ErrorRemedy::command_remedy("--skip leaves out the recordings that refuse");
+                return Err(CorpusError::from_error_list(refusals).with_advice(skip));
             }
             if report.recordings.is_empty() {
                 return Err(nothing_to_change(ids.len()));
@@ -195,6 +199,7 @@ impl Corpus {
         let ids: Vec<i64> = match scope {
             TierRoundScope::Query(query) => self.recordings_of_query(query, progress)?.into_iter().collect(),
             TierRoundScope::All => self.recording_ids_where(|_| true)?,
+            TierRoundScope::Recordings(ids) => self.recording_ids_where(|row| ids.contains(&row.id))?,
             TierRoundScope::Pattern(text) => match text.parse() {
                 Ok(CorpusAddress::Recording(name)) => {
                     vec![address::find_recording_by_name(self.store.read_connection(), &name)?.id]
@@ -209,11 +214,14 @@ impl Corpus {
         if ids.is_empty() {
             let scope_text = match scope {
                 TierRoundScope::All => "the corpus has no recordings".to_owned(),
+                TierRoundScope::Recordings(_) => "no recording is named".to_owned(),
                 TierRoundScope::Query(text) | TierRoundScope::Pattern(text) => format!("no recording is {text:?}"),
             };
-            return Err(CorpusError::from_wrong_message(scope_text).with_advice(
-                chereme_sign::ErrorRemedy::command_remedy("`chereme list CORPUS recordings` lists them"),
-            ));
+            return Err(
+                CorpusError::from_wrong_message(scope_text).with_advice(ErrorRemedy::command_remedy(
+                    "`chereme list CORPUS recordings` lists them",
+                )),
+            );
         }
         Ok(ids)
     }
@@ -236,7 +244,7 @@ pub(super) fn empty_round_row(recording: &RecordingRow) -> TierRoundRow {
 
 fn nothing_to_change(recordings: usize) -> CorpusError {
     CorpusError::from_wrong_message(format!("nothing is to be changed in {recordings} recordings")).with_advice(
-        chereme_sign::ErrorRemedy::command_remedy("`chereme list CORPUS tiers` lists the tiers of all recordings"),
+        ErrorRemedy::command_remedy("`chereme list CORPUS tiers` lists the tiers of all recordings"),
     )
 }
 

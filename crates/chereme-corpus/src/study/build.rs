@@ -135,7 +135,7 @@ impl Corpus {
         match errors.len() {
             0 => Ok(()),
             1 => Err(errors.remove(0)),
-            _ => Err(CorpusError::Several { errors }),
+            _ => Err(CorpusError::from_error_list(errors)),
         }
     }
 

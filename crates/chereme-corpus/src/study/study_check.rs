@@ -77,7 +77,7 @@ pub(super) fn check_study_plan(plan: &StudyPlan) -> CorpusResult<()> {
     match faults.0.len() {
         0 => Ok(()),
         1 => Err(faults.0.remove(0)),
-        _ => Err(CorpusError::Several { errors: faults.0 }),
+        _ => Err(CorpusError::from_error_list(faults.0)),
     }
 }
 

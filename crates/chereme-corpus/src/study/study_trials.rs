@@ -103,7 +103,7 @@ pub(super) fn fail_with_errors(mut errors: Vec<CorpusError>) -> CorpusResult<()>
     match errors.len() {
         0 => Ok(()),
         1 => Err(errors.remove(0)),
-        _ => Err(CorpusError::Several { errors }),
+        _ => Err(CorpusError::from_error_list(errors)),
     }
 }
 
@@ -222,7 +222,7 @@ mod tests {
     #[test]
     fn every_wrong_row_of_a_table_is_named() {
         let text = "item,condition,clip,role,depth\nA,a,A,,\nB,a,,,\nC,a,C,mian,\nD,a,D,,x\n";
-        let Err(CorpusError::Several { errors }) = read_trial_table(text, "t.csv") else {
+        let Err(CorpusError::Several { errors, .. }) = read_trial_table(text, "t.csv") else {
             panic!("three rows are wrong")
         };
         let places: Vec<_> = errors.iter().filter_map(CorpusError::error_place).collect();

@@ -309,7 +309,8 @@ impl OperationEffect {
         })
     }
 
-    /// Returns the form of the summary: `{field}` stands for a field, `{quoted field}` for one in quotation marks.
+    /// Returns the form of the summary: `{field}` stands for a field, `{quoted field}` for one in quotation marks,
+    /// `{counted field}` for a number with the field's name as its noun.
     pub(super) fn summary_form(&self) -> &'static str {
         match self {
             Self::Import { count: 0, .. } => "nothing new",
@@ -329,7 +330,7 @@ impl OperationEffect {
             Self::RemoveTier { .. } => "{tiers} with {annotations} from {recording}",
             Self::AddTiers { .. } => "{count} to {recording}",
             Self::CopyTier { .. } => "{quoted tier} of {recording} as {quoted copy} with {annotations}",
-            Self::WorkOnTiers { .. } => "{tiers} tiers {deed} in {recordings} recordings",
+            Self::WorkOnTiers { .. } => "{counted tiers} {deed} in {counted recordings}",
             Self::OrderTiers { .. } | Self::ChangeRecording { .. } | Self::ChangeMedia { .. } => "{recording}",
             Self::AddValue { .. } => "{value} to {inventory}",
             Self::MergeValues { .. } => "{value} into {into} in {inventory}",
@@ -341,9 +342,9 @@ impl OperationEffect {
             Self::UnitePeople { .. } => "{names} into {person}",
             Self::ImportPeople { .. } => "{people} people from {file}",
             Self::ChangeLexicon { .. } | Self::RemoveLexicon { .. } => "{lexicon}",
-            Self::MeasureSigns { .. } => "{signs} signs",
-            Self::LinkLexicon { .. } => "{lexicon}: {recordings} recordings",
-            Self::UnlinkLexicon { .. } => "{recordings} recordings",
+            Self::MeasureSigns { .. } => "{counted signs}",
+            Self::LinkLexicon { .. } => "{lexicon}: {counted recordings}",
+            Self::UnlinkLexicon { .. } => "{counted recordings}",
             Self::Transcribe { .. } => "token:{token} {gloss}",
             Self::AddTracks { .. } => "{recording}: {tracks}",
             Self::ChangeTrack { change, .. } => match change {

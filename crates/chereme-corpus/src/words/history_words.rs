@@ -64,6 +64,9 @@ pub(super) fn operation_summary(effect: &OperationEffect) -> String {
     let fields = effect.to_json();
     BlankedPhrase::from_form(effect.summary_form()).fill_phrase_blanks(|name| {
         let quoted = name.strip_prefix("quoted ").map(|name| &fields[name]);
+        if let Some(noun) = name.strip_prefix("counted ") {
+            return format_noun_count(fields[noun].as_u64().unwrap_or_default(), noun);
+        }
         match (name, quoted.unwrap_or(&fields[name])) {
             ("changes", Value::Array(deeds)) => {
                 let deeds: Vec<String> = deeds.iter().map(summary_of_deed).collect();

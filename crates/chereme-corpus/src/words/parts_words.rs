@@ -125,7 +125,7 @@ mod tests {
             ),
             wrong("nothing changed", "a.txt, line 2", "write which one"),
         ];
-        let error = crate::CorpusError::Several { errors };
+        let error = crate::CorpusError::from_error_list(errors);
         let french = "2 modifications sont impossibles, et aucune n’a été faite :\n\
                       a.txt, ligne 1 : une nouvelle annotation, de 1s à 2s, chevauche \"BOL\" (1s à 3s) sur l’acteur \"G\" de \"bol\" (libre à côté : 0s à 1s)\n\
                       a.txt, ligne 2 : rien n’a changé (écrivez laquelle)";

@@ -74,7 +74,7 @@ mod tests;
 pub use error::{QueryError, unknown_value};
 pub use narrow::{add_query_condition, facet_condition, has_query_condition, remove_query_condition};
 pub use numerals::NumberSpelling;
-pub use query_attributes::{AttributeTest, parse_plain_number};
+pub use query_attributes::{AttributeTest, attribute_field_text, parse_plain_number};
 pub use query_complete::{CursorCompletion, ExpectedText, complete_query};
 pub use query_everyday::{guess_everyday_query, query_from_everyday_words};
 pub use query_expression::RegularExpression;

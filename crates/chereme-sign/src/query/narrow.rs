@@ -1,5 +1,6 @@
 //! Adds conditions to the text of a query and removes them.
 
+use super::query_attributes::{is_attribute_field, parse_plain_number};
 use super::query_print::write_value;
 use super::query_tree::{QueryExpression, TokenQuery};
 use super::{TextField, TextPattern, WholeTokenProperty};
@@ -109,7 +110,13 @@ pub fn facet_condition(field: &str, value: &str) -> Option<String> {
         Some(after) => ["right", "left"].map(|hand| format!("{before}{hand}.{after}")).to_vec(),
         None => vec![field.to_owned()],
     };
-    let terms: Vec<String> = fields.iter().map(|field| format!("{field}=={written}")).collect();
+    // Many different numbers of an attribute are counted in ranges, each without its upper end.
+    let range = value.split_once(" to ").filter(|_| is_attribute_field(field));
+    let range = range.and_then(|(from, to)| Some((parse_plain_number(from)?, parse_plain_number(to)?)));
+    let terms: Vec<String> = match range {
+        Some((from, to)) => vec![format!("{field}>={from}"), format!("{field}<{to}")],
+        None => fields.iter().map(|field| format!("{field}=={written}")).collect(),
+    };
     let text = terms.join(" ");
     let simple = |name: &str| {
         WholeTokenProperty::ALL_TOKEN_PROPERTIES
@@ -121,7 +128,7 @@ pub fn facet_condition(field: &str, value: &str) -> Option<String> {
     };
     let are_known = fields
         .iter()
-        .all(|field| simple(field) || field.parse::<ComponentField>().is_ok());
+        .all(|field| simple(field) || is_attribute_field(field) || field.parse::<ComponentField>().is_ok());
     (are_known && TokenQuery::parse_query(&text).is_ok()).then_some(text)
 }
 
@@ -235,6 +242,12 @@ mod tests {
             ("gloss", "CHAT", "gloss==CHAT"),
             ("signer", "A*", r#"signer=="A\*""#),
             ("hand", "both", "hand==both"),
+            ("attribute.class", "Noun", "attribute.class==Noun"),
+            (
+                "attribute.density",
+                "10 to 20",
+                "attribute.density>=10 attribute.density<20",
+            ),
         ] {
             assert_eq!(facet_condition(field, value).as_deref(), Some(condition));
         }

@@ -194,6 +194,24 @@ pub fn parse_plain_number(text: &str) -> Option<f64> {
     parsed.filter(|number| number.is_finite() && point.chars().all(numeral))
 }
 
+/// Returns the name of an attribute as a query spells it: `attribute.frequency`, `attribute("Sign Frequency")`.
+#[must_use]
+pub fn attribute_field_text(name: &str) -> String {
+    struct SpelledName<'a>(&'a str);
+    impl fmt::Display for SpelledName<'_> {
+        fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+            write_name(f, self.0)
+        }
+    }
+    SpelledName(name).to_string()
+}
+
+/// Returns whether a text is the name of an attribute as a query spells it.
+pub(super) fn is_attribute_field(text: &str) -> bool {
+    let opens = text.split_once('(').is_some_and(|(word, _)| opens_name(word));
+    opens || strip_attribute_prefix(text).is_some()
+}
+
 /// Writes the name of an attribute as a query spells it.
 pub(super) fn write_name(f: &mut Formatter<'_>, name: &str) -> fmt::Result {
     let plain = |c: char| c.is_alphanumeric() || "-_.".contains(c);

@@ -90,7 +90,7 @@ fn failure_sentence(
         },
         CorpusError::Index(_) => (say(words::INDEX), None),
         CorpusError::Damaged { .. } => (say(words::DAMAGED), None),
-        CorpusError::Several { errors } => {
+        CorpusError::Several { errors, .. } => {
             let text = say(words::SEVERAL);
             (fill_text_braces(&text, &[("n", &errors.len())]), None)
         }

@@ -42,7 +42,7 @@ fn lines_without_a_place_are_refused_or_left_out() {
     annotate(&mut corpus, "add G 0-100 MAISON").expect("added");
     let before = shown(&corpus);
     let text = format!("{COPIED}G\t2.000\t1.000\tLOUP\nC\t0.000\t0.100\tno-such-shape\n");
-    let Err(CorpusError::Several { errors }) = paste(&mut corpus, &text, &PasteOptions::default()) else {
+    let Err(CorpusError::Several { errors, .. }) = paste(&mut corpus, &text, &PasteOptions::default()) else {
         panic!("some lines have no place");
     };
     let places: Vec<_> = errors.iter().filter_map(CorpusError::error_place).collect();

@@ -27,7 +27,7 @@ fn an_annotation_named_by_its_id_must_be_where_its_row_says() {
             .expect_err(row);
         let want = format!("t.csv, line 3: the row names {named}, but {there}");
         assert!(error.to_string().contains(&want), "{want} in\n{error}");
-        let CorpusError::Several { errors } = error else {
+        let CorpusError::Several { errors, .. } = error else {
             panic!("one error of one row: {row}");
         };
         let remedy = errors[0].error_remedy().map(|it| it.to_string());

@@ -107,16 +107,33 @@ fn nothing_is_done_if_a_recording_refuses_unless_it_is_left_out() {
     let work = TierRoundWork::Add(NewTier::new(RowName::Number(0), "G", TierRole::Free));
     let options = TierRoundOptions::default();
     let error = work_on(&mut corpus, &TierRoundScope::All, &work, options).expect_err("two have one");
-    let CorpusError::Several { errors } = &error else {
+    let CorpusError::Several { errors, .. } = &error else {
         panic!("a list: {error}");
     };
     let places: Vec<_> = errors.iter().filter_map(CorpusError::error_place).collect();
     assert_eq!(places, ["recording:1 (\"Take 1\")", "recording:2 (\"Take 2\")"]);
+    let remedy = error.error_remedy().expect("a remedy for the list");
+    assert!(remedy.remedy_text().contains("--skip"), "{remedy:?}");
     assert_eq!(rows(corpus.store.read_connection()), before);
 
     let skip = TierRoundOptions { skip: true, ..options };
     let report = work_on(&mut corpus, &TierRoundScope::All, &work, skip).expect("one has none");
     assert_eq!(changed_tiers(&report), ["Take 1 refuses", "Take 2 refuses", "Other: G"]);
+    let overview = corpus.load_corpus_overview(1).expect("read");
+    assert_eq!(overview.operations[0].summary, "1 tier added in 1 recording");
+}
+
+#[test]
+fn recordings_are_chosen_by_their_rows() {
+    let (_folder, mut corpus) = three_recordings();
+    let work = TierRoundWork::Add(NewTier::new(RowName::Number(0), "new", TierRole::Free));
+    let on = |corpus: &mut Corpus, ids: &[i64]| {
+        let scope = TierRoundScope::Recordings(ids.to_vec());
+        work_on(corpus, &scope, &work, TierRoundOptions::default())
+    };
+    let report = on(&mut corpus, &[3, 1]).expect("done");
+    assert_eq!(changed_tiers(&report), ["Take 1: new", "Other: new"]);
+    assert!(on(&mut corpus, &[]).is_err() && on(&mut corpus, &[99]).is_err());
 }
 
 #[test]

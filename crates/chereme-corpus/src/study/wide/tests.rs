@@ -184,7 +184,7 @@ fn the_use_of_each_column_is_shown_before_anything_is_stored() {
 #[test]
 fn every_wrong_row_of_a_map_is_named() {
     let text = "column,item,condition,question,means\nid,,,,participant\nr1,BOL,mad,realism,\nx,,,,age\n";
-    let Err(CorpusError::Several { errors }) = ColumnMap::read_column_map(text, "m.csv", &plan()) else {
+    let Err(CorpusError::Several { errors, .. }) = ColumnMap::read_column_map(text, "m.csv", &plan()) else {
         panic!("two rows are wrong")
     };
     let places: Vec<_> = errors.iter().filter_map(CorpusError::error_place).collect();

@@ -49,7 +49,7 @@ impl Heard {
     }
 
     fn error(&mut self, error: &CorpusError) {
-        if let CorpusError::Several { errors } = error {
+        if let CorpusError::Several { errors, .. } = error {
             let said = error.spoken_error_message(InterfaceLanguage::French, &|text| {
                 localized_message(text, InterfaceLanguage::French).unwrap_or_else(|| text.to_owned())
             });

@@ -250,7 +250,7 @@ impl DraftedPlan {
 /// Returns the parts of an error.
 pub(super) fn split_study_errors(error: CorpusError) -> Vec<CorpusError> {
     match error {
-        CorpusError::Several { errors } => errors,
+        CorpusError::Several { errors, .. } => errors,
         one => vec![one],
     }
 }

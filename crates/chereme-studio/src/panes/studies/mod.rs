@@ -73,7 +73,7 @@ impl StudyFault {
     /// Returns each part of an error.
     fn faults_from_error(error: &CorpusError) -> Vec<Self> {
         match error {
-            CorpusError::Several { errors } => errors.iter().map(Self::fault_from_error).collect(),
+            CorpusError::Several { errors, .. } => errors.iter().map(Self::fault_from_error).collect(),
             one => vec![Self::fault_from_error(one)],
         }
     }
