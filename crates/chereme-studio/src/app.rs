@@ -192,6 +192,7 @@ impl Studio {
         self.panes.search.show_animated_hit(&mut self.out);
         self.panes.library.show_chosen_notated_sign(&mut self.out);
         self.panes.map.show_animated_map_sign(&mut self.out);
+        self.panes.measures.show_animated_measured_sign(&mut self.out);
         if self.panes.recombine.has_news() {
             // The pictures requested in this frame must show the new movement.
             self.keep_up(&ctx);
@@ -345,6 +346,7 @@ impl Studio {
                     }
                     self.panes.forward_work_result(id, &ended);
                     self.overlays.export.handle_export_result(id, &ended);
+                    self.overlays.tiers.handle_tier_round_result(id, &ended);
                     if let Ok(WorkOutcome::Imported(report)) = &ended
                         && !report.dry_run
                         && std::mem::take(&mut self.looking)

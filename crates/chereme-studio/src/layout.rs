@@ -14,6 +14,7 @@ const LAYOUT_TREE_ID: &str = "panes";
 pub(crate) enum PaneKind {
     Library,
     Map,
+    Measures,
     Cue,
     Faces,
     Agreement,
@@ -29,9 +30,10 @@ pub(crate) enum PaneKind {
 }
 
 impl PaneKind {
-    pub(crate) const ALL_PANE_KINDS: [Self; 14] = [
+    pub(crate) const ALL_PANE_KINDS: [Self; 15] = [
         Self::Library,
         Self::Map,
+        Self::Measures,
         Self::Cue,
         Self::Faces,
         Self::Agreement,
@@ -50,6 +52,7 @@ impl PaneKind {
         match self {
             Self::Library => words::library::TITLE,
             Self::Map => words::map_words::TITLE,
+            Self::Measures => words::measures_words::TITLE,
             Self::Cue => words::cue_words::TITLE,
             Self::Faces => words::faces_words::TITLE,
             Self::Agreement => words::agreement::TITLE,
@@ -92,8 +95,8 @@ pub(crate) fn is_small(size: Vec2) -> bool {
 pub(crate) fn layout_for_task(busy: BusyTask, small: bool) -> Tree<PaneKind> {
     use LinearDir::{Horizontal, Vertical};
     use PaneKind::{
-        Agreement, Cue, Faces, Film, History, Import, Inspector, Library, Map, Recombine, Search, Stage, Studies,
-        Timeline,
+        Agreement, Cue, Faces, Film, History, Import, Inspector, Library, Map, Measures, Recombine, Search, Stage,
+        Studies, Timeline,
     };
     let mut tiles = Tiles::default();
     let mut tabs = |kinds: &[PaneKind]| {
@@ -104,19 +107,23 @@ pub(crate) fn layout_for_task(busy: BusyTask, small: bool) -> Tree<PaneKind> {
         match busy {
             BusyTask::Annotating => {
                 let above = [
-                    Stage, Film, Library, Search, Map, Faces, Agreement, Studies, Recombine, Cue, Import, Inspector,
-                    History,
+                    Stage, Film, Library, Search, Map, Measures, Faces, Agreement, Studies, Recombine, Cue, Import,
+                    Inspector, History,
                 ];
                 let parts = [(tabs(&above), 0.6), (tabs(&[Timeline]), 0.4)];
                 tile_with_shares(&mut tiles, Vertical, &parts)
             }
             BusyTask::Recombining => {
-                let left = tabs(&[Library, Search, Map, Faces, Agreement, Studies, Recombine, Cue, Import]);
+                let left = tabs(&[
+                    Library, Search, Map, Measures, Faces, Agreement, Studies, Recombine, Cue, Import,
+                ]);
                 let side = tabs(&[Stage, Film, Timeline, Inspector, History]);
                 tile_with_shares(&mut tiles, Horizontal, &[(left, 0.46), (side, 0.54)])
             }
             BusyTask::Searching => {
-                let left = tabs(&[Library, Search, Map, Faces, Agreement, Studies, Recombine, Cue, Import]);
+                let left = tabs(&[
+                    Library, Search, Map, Measures, Faces, Agreement, Studies, Recombine, Cue, Import,
+                ]);
                 let side_parts = [
                     (tabs(&[Stage]), 0.64),
                     (tabs(&[Timeline, Inspector, Film, History]), 0.36),
@@ -126,7 +133,9 @@ pub(crate) fn layout_for_task(busy: BusyTask, small: bool) -> Tree<PaneKind> {
             }
         }
     } else {
-        let left = tabs(&[Library, Search, Map, Faces, Agreement, Studies, Recombine, Cue, Import]);
+        let left = tabs(&[
+            Library, Search, Map, Measures, Faces, Agreement, Studies, Recombine, Cue, Import,
+        ]);
         let stage = tabs(&[Stage]);
         // Three panes above each other would have too little height to read.
         let below = match busy {

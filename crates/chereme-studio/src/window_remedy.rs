@@ -1,10 +1,45 @@
 //! Remedies in the words of the window.
 
+use chereme_corpus::CorpusError;
 use chereme_corpus::remedy::{ErrorRemedy, RemedyChoice};
+use eframe::egui::{Color32, RichText, Ui};
 
 use crate::words::{
     InterfaceLanguage, InterfaceText, import_words as words, shell, translate_library_message, trouble_words,
 };
+
+/// A failure that is shown beside the work that failed.
+#[derive(Debug)]
+pub(crate) struct ShownFailure {
+    message: String,
+    remedy: Option<ErrorRemedy>,
+}
+
+impl ShownFailure {
+    pub(crate) fn from_error(error: &CorpusError) -> Self {
+        // The query stands beside the failure, so that it is not drawn once more.
+        let message = match error {
+            CorpusError::Query(wrong) => wrong.message.clone(),
+            other => other.to_string(),
+        };
+        let remedy = error.error_remedy();
+        Self { message, remedy }
+    }
+
+    /// Shows the message in a colour, and the remedy below it.
+    pub(crate) fn show_failure(&self, ui: &mut Ui, language: InterfaceLanguage, colour: Color32) {
+        let lines = self
+            .message
+            .lines()
+            .map(|line| translate_library_message(line, language));
+        let text = lines.collect::<Vec<String>>().join("\n");
+        ui.label(RichText::new(text).color(colour));
+        let remedy = self.remedy.as_ref();
+        if let Some(remedy) = remedy.and_then(|remedy| window_remedy_text(remedy, language)) {
+            ui.small(remedy);
+        }
+    }
+}
 
 /// Returns the remedy in the words of the window; `None` if only the command line offers one.
 pub(crate) fn window_remedy_text(remedy: &ErrorRemedy, language: InterfaceLanguage) -> Option<String> {

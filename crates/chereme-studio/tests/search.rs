@@ -433,3 +433,65 @@ fn taking_over_searches_of_this_computer_asks_before_one_is_replaced() {
     window.run_steps(3);
     assert!(!has(&window, "Take over into this corpus"));
 }
+
+#[test]
+fn stored_measures_order_and_count_the_hits() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = open_starter(folder.path());
+    window.key_press_modifiers(Modifiers::COMMAND | Modifiers::ALT, Key::Q);
+    until(&mut window, "the measures", |it| contains(it, "Signs measured: "));
+    click(&mut window, "Sort by gloss");
+    let rows = || window.query_all_by_label_contains(", neighbours ");
+    let glosses: Vec<String> = rows().filter_map(|row| row.accesskit_node().label()).collect();
+    assert!(glosses.len() > 5 && glosses.is_sorted(), "{glosses:?}");
+    window.get_by_label(&glosses[0]).click();
+    window.run_steps(3);
+    idle(&mut window);
+    assert!(
+        window.state().playhead_instant().instant_micros() > 0,
+        "the sign is opened"
+    );
+    click(&mut window, "Store as attributes");
+    until(&mut window, "stored measures", |it| contains(it, "signs stored"));
+    idle(&mut window);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::F2);
+    window.run_steps(2);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::F);
+    until(&mut window, "the hits", |it| contains(it, "Found: "));
+    click(&mut window, "Order: best first");
+    window.run_steps(3);
+    click(&mut window, "neighbours");
+    idle(&mut window);
+    window.run_steps(3);
+    assert!(has(&window, "Order: neighbours"));
+    let path = window.state().shown_corpus_path().expect("open").clone();
+    let mut corpus = chereme_corpus::Corpus::open_corpus(&path, "reader").expect("opened");
+    let options = chereme_corpus::SearchOptions {
+        order: chereme_corpus::HitOrder::AttributeDescending("density".to_owned()),
+        ..chereme_corpus::SearchOptions::default()
+    };
+    let answer = corpus.search_tokens("", &options).expect("an answer");
+    let first = window
+        .query_all_by_label_contains(", neighbours ")
+        .next()
+        .expect("a hit");
+    let first = first.accesskit_node().label().expect("its name");
+    let (gloss, value) = (&answer.hits[0].gloss, &answer.hits[0].order_values[0]);
+    assert!(
+        first.starts_with(&format!("{gloss}, ")) && first.ends_with(&format!(", neighbours {value}")),
+        "{first}"
+    );
+    click(&mut window, "Also count…");
+    window.run_steps(3);
+    click(&mut window, "signers");
+    idle(&mut window);
+    window.run_steps(3);
+    let counted = window.query_all_by_label_contains("attribute.measure.signers=").next();
+    counted.expect("a facet").click();
+    window.run_steps(3);
+    assert!(
+        query(&window).starts_with("attribute.measure.signers=="),
+        "{}",
+        query(&window)
+    );
+}

@@ -85,6 +85,64 @@ fn a_tier_is_copied_with_the_chosen_contents() {
     until(&mut window, "the undo", |it| !has(it, "Tier Gloss copy 2"));
 }
 
+/// Returns how many recordings there are, and how many have a tier of this name.
+fn recordings_with_tier(window: &Window<'_>, name: &str) -> (usize, usize) {
+    let path = window.state().shown_corpus_path().expect("open").clone();
+    let corpus = chereme_corpus::Corpus::open_corpus(&path, "reader").expect("opened");
+    let overview = corpus.load_corpus_overview(0).expect("read");
+    let has_tier = |id: i64| {
+        let contents = corpus.load_recording_contents(id).expect("read");
+        contents.tiers.iter().any(|tier| tier.row.name == name)
+    };
+    let ids: Vec<i64> = overview.recordings.iter().map(|glance| glance.row.id).collect();
+    (ids.len(), ids.iter().filter(|id| has_tier(**id)).count())
+}
+
+#[test]
+fn tiers_of_many_recordings_are_tried_first_and_added_in_one_step() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = common::open_starter(folder.path());
+    let before = operations(&window);
+    press(&mut window, CTRL | SHIFT | ALT, Key::U);
+    window.get_by_role_and_label(Role::ComboBox, "Work").click();
+    window.run_steps(3);
+    click(&mut window, "add a tier");
+    let may_press = |window: &Window<'_>, label: &str| !window.get_by_label(label).accesskit_node().is_disabled();
+    assert!(!may_press(&window, "Show what would change"), "a name is missing");
+    let name = window.get_by_role_and_label(Role::TextInput, "Name of the tier");
+    name.focus();
+    window.run_steps(2);
+    let name = window.get_by_role_and_label(Role::TextInput, "Name of the tier");
+    name.type_text("Notes");
+    window.run_steps(2);
+    assert!(!may_press(&window, "Carry out"), "it was not tried");
+    click(&mut window, "Show what would change");
+    idle(&mut window);
+    window.run_steps(2);
+    let (all, _) = recordings_with_tier(&window, "Notes");
+    let would = format!("Would change: {all} · refuse: 0 · stay as they are: 0");
+    until(&mut window, "the list", |it| has(it, &would));
+    assert_eq!(
+        (operations(&window), recordings_with_tier(&window, "Notes")),
+        (before, (all, 0))
+    );
+    click(&mut window, "Carry out");
+    stored(&mut window, before);
+    assert_eq!(
+        (operations(&window), recordings_with_tier(&window, "Notes")),
+        (before + 1, (all, all))
+    );
+    click(&mut window, "Show what would change");
+    idle(&mut window);
+    window.run_steps(2);
+    assert!(common::contains(&window, &format!("refuse: {all}")) && !may_press(&window, "Carry out"));
+    press(&mut window, NONE, Key::Escape);
+    assert!(!has(&window, "Carry out"));
+    press(&mut window, CTRL, Key::Z);
+    stored(&mut window, before + 1);
+    assert_eq!(recordings_with_tier(&window, "Notes"), (all, 0));
+}
+
 #[test]
 fn hidden_tiers_and_zoom_are_remembered_for_each_corpus() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -6,7 +6,8 @@
 
 use super::{ActionContext, ActionMenu, ActionOwner, ActionRow};
 use crate::layout::PaneKind::{
-    Agreement, Cue, Faces, Film, History, Import, Inspector, Library, Map, Recombine, Search, Stage, Studies, Timeline,
+    Agreement, Cue, Faces, Film, History, Import, Inspector, Library, Map, Measures, Recombine, Search, Stage, Studies,
+    Timeline,
 };
 use crate::words::InterfaceText;
 
@@ -116,6 +117,7 @@ actions! {
     ChangeTier "tier.change" Tier, Corpus, In(Timeline), changes, "Ctrl+Shift+T" "=" "=";
     CopyTier "tier.copy" Tier, Corpus, In(Timeline), changes, "Ctrl+Shift+Alt+T" "=" "=";
     RemoveTier "tier.remove" Tier, Corpus, In(Timeline), changes, "Ctrl+Alt+T" "=" "=";
+    TiersOfMany "tier.many" Tier, Corpus, WithCorpus, changes, "Ctrl+Shift+Alt+U" "=" "=";
     TierUp "tier.up" Tier, Corpus, In(Timeline), edits repeats, "Ctrl+Shift+Up" "=" "=";
     TierDown "tier.down" Tier, Corpus, In(Timeline), edits repeats, "Ctrl+Shift+Down" "=" "=";
     TiersByName "tier.by-name" Tier, Corpus, In(Timeline), edits, "Shift+Alt+O" "=" "=";
@@ -203,6 +205,7 @@ actions! {
     ShowInspector "pane.inspector" Panes, Corpus, Shows(Inspector), "Shift+F4" "=" "=";
     ShowFilm "pane.film" Panes, Corpus, Shows(Film), "Shift+F5" "=" "=";
     ShowMap "pane.map" Panes, Corpus, Shows(Map), "Ctrl+Alt+K" "=" "=";
+    ShowMeasures "pane.measures" Panes, Corpus, Shows(Measures), "Ctrl+Alt+Q" "=" "=";
     ShowCue "pane.cue" Panes, Corpus, Shows(Cue), "Ctrl+Alt+L" "=" "=";
     ShowFaces "pane.faces" Panes, Corpus, Shows(Faces), "Ctrl+Alt+V" "=" "=";
     ShowAgreement "pane.agreement" Panes, Corpus, Shows(Agreement), "Ctrl+Alt+B" "=" "=";

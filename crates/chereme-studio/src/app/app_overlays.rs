@@ -5,13 +5,16 @@ use eframe::egui::Context;
 use super::Studio;
 
 impl Studio {
-    fn exporting(&mut self, ctx: &Context) {
+    /// Draws the windows that need to see the corpus.
+    fn draw_corpus_overlays(&mut self, ctx: &Context) {
         let mut export = std::mem::take(&mut self.overlays.export);
+        let mut tiers = std::mem::take(&mut self.overlays.tiers);
         let mut out = std::mem::take(&mut self.out);
         if let (Some(seen), Some(desk)) = (self.pane_input(ctx), &self.desk) {
             export.ui(ctx, &seen, &self.settings, &desk.path, &mut out);
+            tiers.ui(ctx, &seen, &mut out);
         }
-        (self.overlays.export, self.out) = (export, out);
+        (self.overlays.export, self.overlays.tiers, self.out) = (export, tiers, out);
     }
 
     /// Draws the open ones.
@@ -30,7 +33,7 @@ impl Studio {
         overlays.keys.ui(ctx, keys, settings, out);
         overlays.settings.ui(ctx, settings, out);
         overlays.steps.ui(ctx, keys, little, settings.language);
-        self.exporting(ctx);
+        self.draw_corpus_overlays(ctx);
         let Self {
             overlays,
             settings,

@@ -226,6 +226,7 @@ impl Studio {
                 self.shown.span = None;
                 self.shown.annotations.clear();
             }
+            Action::TiersOfMany => self.overlays.tiers.toggle_tier_round_window(),
             Action::MergeCorpus => {
                 // If no chooser opens, the path can be typed in the import pane.
                 self.bring_pane_forward(PaneKind::Import);

@@ -105,6 +105,7 @@ impl Studio {
         self.little = MiniatureFigures::default();
         self.films = RecordingFilms::default();
         self.panes = crate::panes::PaneSet::default();
+        self.overlays.tiers = Default::default();
         self.out = CommandOutbox::after_outbox(&self.out);
     }
 

@@ -203,6 +203,7 @@ impl NoticeBoard {
                 | WorkOutcome::Deleted(_)
                 | WorkOutcome::Undone(_)
                 | WorkOutcome::Redone(_)
+                | WorkOutcome::Toured(_)
         );
         self.all.retain(|notice| !(written && notice.passes));
         let text = match outcome {
@@ -228,6 +229,7 @@ impl NoticeBoard {
                 let what = history_words::operation_sentence(&row.effect, language);
                 fill_text_braces(history_words::DONE_AGAIN.text_in_language(language), &[("what", &what)])
             }
+            WorkOutcome::Toured(report) if !report.dry_run => report.round_sentence(language),
             WorkOutcome::Exported(report) => super::overlay_export::written_text(report, language),
             WorkOutcome::Shared(picture) => {
                 let values: [(&str, &dyn std::fmt::Display); 2] =

@@ -3,23 +3,19 @@
 use std::path::{Path, PathBuf};
 
 use chereme_corpus::{CorpusAddress, ExportOptions, ExportReport, ExportWhat, RowName};
-use eframe::egui::{Align2, Button, Context, Id, Key, ProgressBar, RichText, ScrollArea, Ui, Window};
+use eframe::egui::{Button, Context, Id, Key, RichText, ScrollArea, Ui};
 
 use crate::command::{CommandOutbox, WindowCommand};
 use crate::context::PaneInput;
 use crate::panes::complete_pane::CompletionLine;
 use crate::panes::import::PathCompletions;
 use crate::panes::recombine::selected_token;
+use crate::panes::show_running_work;
 use crate::settings::StudioSettings;
 use crate::words::{
-    InterfaceLanguage, InterfaceText, export_words as words, fill_text_braces, shell, translate_library_message,
+    InterfaceLanguage, InterfaceText, export_words as words, fill_text_braces, translate_library_message,
 };
 use crate::work::{WorkId, WorkOutcome, WorkResult, exchange};
-
-/// The height of the window's title and edges, in points.
-const EXPORT_HEAD_HEIGHT: f32 = 56.0;
-/// The width of the bar that scrolls, in points.
-const EXPORT_SCROLL_BAR_WIDTH: f32 = 10.0;
 
 /// The object of an export.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -169,22 +165,8 @@ impl ExportWindow {
         if !self.open {
             return;
         }
-        let mut open = true;
-        let window = Window::new(seen.say_text(words::TITLE))
-            .id(Id::unique("export"))
-            .open(&mut open)
-            .pivot(Align2::CENTER_CENTER)
-            .default_pos(ctx.content_rect().center())
-            .default_width(420.0)
-            .resizable(false);
-        window.show(ctx, |ui| {
-            ui.set_width(420.0_f32.min(ctx.content_rect().width() - 60.0));
-            let high = (ctx.content_rect().height() - EXPORT_HEAD_HEIGHT).max(120.0);
-            ScrollArea::vertical().max_height(high).show(ui, |ui| {
-                // The bar that scrolls covers no field.
-                ui.set_max_width(ui.available_width() - EXPORT_SCROLL_BAR_WIDTH);
-                self.show_export_form(ui, seen, settings, corpus, out);
-            });
+        let open = super::show_form_window(ctx, seen.say_text(words::TITLE), "export", |ui| {
+            self.show_export_form(ui, seen, settings, corpus, out);
         });
         self.open = open && !(self.asked.is_none() && super::take_escape_key(ctx));
     }
@@ -282,18 +264,8 @@ impl ExportWindow {
         entered: bool,
         out: &mut CommandOutbox,
     ) {
-        let running = self.asked.and_then(|id| seen.running.get(&id));
         ui.horizontal(|ui| {
-            if let (Some(running), Some(id)) = (running, self.asked) {
-                match running.far.finished_share() {
-                    Some(share) => {
-                        drop(ui.add(ProgressBar::new(share).desired_width(160.0).show_percentage()));
-                    }
-                    None => drop(ui.spinner()),
-                }
-                if ui.button(seen.say_text(shell::CANCEL)).clicked() {
-                    out.send_command(WindowCommand::Stop(id));
-                }
+            if show_running_work(ui, seen, self.asked, out) {
                 return;
             }
             let ready = !self.to.trim().is_empty();

@@ -17,6 +17,7 @@ pub(crate) mod inspector;
 pub(crate) mod library;
 pub(crate) mod list_keys;
 pub(crate) mod map;
+pub(crate) mod measures;
 mod notated_pane;
 pub(crate) mod recombine;
 mod saved_pane;
@@ -27,15 +28,15 @@ pub(crate) mod timeline;
 pub(crate) mod without_movement;
 
 use eframe::egui::{
-    Align2, Color32, Id, Response, RichText, Role, Sense, StrokeKind, TextStyle, TextWrapMode, Ui, WidgetInfo,
-    WidgetText, pos2, vec2,
+    Align2, Color32, Id, ProgressBar, Response, RichText, Role, Sense, StrokeKind, TextStyle, TextWrapMode, Ui,
+    WidgetInfo, WidgetText, pos2, vec2,
 };
 
 use crate::action::Action;
-use crate::command::CommandOutbox;
+use crate::command::{CommandOutbox, WindowCommand};
 use crate::context::PaneInput;
 use crate::layout::PaneKind;
-use crate::words::InterfaceText;
+use crate::words::{InterfaceText, shell};
 use crate::work::{WorkId, WorkResult};
 
 /// The outcome of an action that was offered to a pane.
@@ -79,6 +80,7 @@ pub(crate) trait PaneInterface {
 pub(crate) struct PaneSet {
     pub(crate) library: library::LibraryPane,
     pub(crate) map: map::MapPane,
+    pub(crate) measures: measures::MeasuresPane,
     pub(crate) cue: cue::CuePane,
     pub(crate) faces: faces::FacesPane,
     pub(crate) agreement: agreement::AgreementPane,
@@ -98,6 +100,7 @@ impl PaneSet {
         match kind {
             PaneKind::Library => &mut self.library,
             PaneKind::Map => &mut self.map,
+            PaneKind::Measures => &mut self.measures,
             PaneKind::Cue => &mut self.cue,
             PaneKind::Faces => &mut self.faces,
             PaneKind::Agreement => &mut self.agreement,
@@ -118,6 +121,26 @@ impl PaneSet {
             self.get_mut(kind).receive_work_result(id, ended);
         }
     }
+}
+
+/// Shows the progress of a running piece of work, and a button that stops it; returns whether it runs.
+pub(crate) fn show_running_work(
+    ui: &mut Ui,
+    seen: &PaneInput<'_>,
+    work: Option<WorkId>,
+    out: &mut CommandOutbox,
+) -> bool {
+    let Some((id, running)) = work.and_then(|id| Some((id, seen.running.get(&id)?))) else {
+        return false;
+    };
+    match running.far.finished_share() {
+        Some(share) => drop(ui.add(ProgressBar::new(share).desired_width(120.0).show_percentage())),
+        None => drop(ui.spinner()),
+    }
+    if ui.button(seen.say_text(shell::CANCEL)).clicked() {
+        out.send_command(WindowCommand::Stop(id));
+    }
+    true
 }
 
 /// Returns the width of the longest word in `texts`; a column of that width breaks lines only between words.

@@ -8,6 +8,7 @@ use chereme_corpus::CorpusError;
 use super::library::library_data::SignMovement;
 use super::without_movement::MovementAbsence;
 use crate::command::{CommandOutbox, WindowCommand};
+use crate::context::PaneInput;
 use crate::model::InspectedThing;
 use crate::model::generated::GeneratedClip;
 use crate::work::{WorkId, WorkOutcome, WorkResult, recombining};
@@ -79,6 +80,15 @@ impl AnimatedNotations {
                 out.send_command(WindowCommand::Made(None));
                 out.send_command(WindowCommand::Inspect(InspectedThing::Token(token)));
             }
+        }
+    }
+
+    /// Chooses the sign with this citation form.
+    pub(crate) fn choose_citation_sign(&mut self, seen: &PaneInput<'_>, token: i64, out: &mut CommandOutbox) {
+        let signs = &seen.snapshot.overview.signs;
+        match signs.iter().find(|sign| sign.citation == Some(token)) {
+            Some(sign) => self.choose_notated_sign(SignMovement::movement_of_sign(sign), token, &sign.gloss, out),
+            None => out.send_command(WindowCommand::Inspect(InspectedThing::Token(token))),
         }
     }
 

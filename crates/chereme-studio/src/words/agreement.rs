@@ -28,7 +28,6 @@ texts! {
     WRITE_TABLE: "Save the table", "Enregistrer le tableau";
     CHOOSE: "Choose the tiers of two annotators who coded the same thing.", "Choisissez les acteurs de deux annotateurs qui ont codé la même chose.";
     NO_RECORDING: "Open a recording with the tiers of two annotators.", "Ouvrez un enregistrement avec les acteurs de deux annotateurs.";
-    STOP: "Stop", "Arrêter";
     STOPPED: "Stopped", "Arrêté";
     AGAIN: "Compare again", "Comparer à nouveau";
     COUNTS: "{a} and {b} annotations; matched {matched}, of equal value {equal}", "{a} et {b} annotations ; en correspondance {matched}, de même valeur {equal}";

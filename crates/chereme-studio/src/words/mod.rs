@@ -34,6 +34,7 @@ pub(crate) mod inspector;
 pub(crate) mod key_names;
 pub(crate) mod library;
 pub(crate) mod map_words;
+pub(crate) mod measures_words;
 pub(crate) mod pickers;
 pub(crate) mod recombine_words;
 pub(crate) mod scripts;
@@ -42,13 +43,14 @@ pub(crate) mod shell;
 pub(crate) mod stage_words;
 pub(crate) mod steps_words;
 pub(crate) mod studies_words;
+pub(crate) mod tier_round_words;
 pub(crate) mod timeline;
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const TABLES: [&[(&str, InterfaceText)]; 22] = [
+    const TABLES: [&[(&str, InterfaceText)]; 24] = [
         actions_words::ALL,
         agreement::ALL,
         cue_words::ALL,
@@ -61,6 +63,7 @@ mod tests {
         key_names::ALL,
         library::ALL,
         map_words::ALL,
+        measures_words::ALL,
         pickers::ALL,
         recombine_words::ALL,
         scripts::ALL,
@@ -69,6 +72,7 @@ mod tests {
         stage_words::ALL,
         steps_words::ALL,
         studies_words::ALL,
+        tier_round_words::ALL,
         timeline::ALL,
         gestures_words::ALL,
     ];

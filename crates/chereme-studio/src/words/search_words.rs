@@ -147,6 +147,10 @@ texts! {
     PLACE: "where", "où";
     DURATION: "duration", "durée";
     WIDER: "Drag to make the column wider or narrower; a double-click restores its usual width", "Glisser pour élargir ou rétrécir la colonne ; un double clic rétablit sa largeur habituelle";
+    ORDER: "Order: {order}", "Ordre : {order}";
+    ORDER_RANK: "best first", "pertinence";
+    GREATEST_FIRST: "Greatest first", "Du plus grand au plus petit";
+    COUNT: "Also count…", "Compter aussi…";
     SORT: "Sort by {column}", "Trier par {column}";
     SORT_FEWER: "Too many hits to sort by their neighbours: narrow the query", "Trop de résultats pour trier par contexte : précisez la requête";
     HIT_TIP: "{hit}\nArrow keys walk, Enter opens", "{hit}\nFlèches pour aller, Entrée pour ouvrir";

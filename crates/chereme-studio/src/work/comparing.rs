@@ -1,12 +1,12 @@
-//! Jobs that compare annotators with each other.
+//! Jobs that compare annotators, or signs, with each other.
 
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use chereme_corpus::{AgreeOptions, AnnotatorAgreement};
+use chereme_corpus::{AgreeOptions, AnnotatorAgreement, SignMeasureOptions, SignMeasures};
 
 use super::{CorpusJob, JobAbout, WorkLane, WorkOutcome};
-use crate::words::agreement as words;
+use crate::words::{agreement as words, measures_words};
 
 const COMPARE_JOB_ABOUT: JobAbout = JobAbout {
     lane: WorkLane::Compare,
@@ -21,6 +21,23 @@ pub(crate) fn compare_tiers_job(options: AgreeOptions) -> CorpusJob {
         let agreement = corpus.compare_annotators(&options, progress)?;
         Ok(WorkOutcome::Agreed(Arc::new(agreement)))
     })
+}
+
+/// Measures the signs of a lexicon one by one.
+pub(crate) fn measure_signs_job(options: SignMeasureOptions) -> CorpusJob {
+    let about = JobAbout {
+        task: measures_words::TASK,
+        ..COMPARE_JOB_ABOUT
+    };
+    CorpusJob::new(about, move |corpus, progress| {
+        let measures = corpus.measure_signs(&options, progress)?;
+        Ok(WorkOutcome::SignsMeasured(Arc::new(measures)))
+    })
+}
+
+/// Stores measures as attributes of the signs.
+pub(crate) fn store_measures_job(measures: Arc<SignMeasures>) -> CorpusJob {
+    CorpusJob::new_change_job(move |corpus, _| corpus.store_sign_measures(&measures))
 }
 
 /// Writes the disagreements as a table.

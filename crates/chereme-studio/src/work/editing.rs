@@ -2,10 +2,11 @@
 
 use chereme_corpus::{
     AnnotateOptions, AnnotationChange, CopiedAnnotations, NewTier, RowName, TierPropertyChange, TierRequestName,
-    TierScheme,
+    TierRoundOptions, TierRoundScope, TierRoundWork, TierScheme,
 };
 
 use super::{CorpusJob, JobAbout, WorkOutcome};
+use crate::words::tier_round_words;
 
 /// Changes annotations, as one operation.
 pub(crate) fn annotate_corpus_job(changes: Vec<AnnotationChange>) -> CorpusJob {
@@ -24,6 +25,20 @@ pub(crate) fn add_tier(tier: NewTier) -> CorpusJob {
 /// Gives a recording the tiers of a scheme.
 pub(crate) fn add_tiers(recording: RowName, scheme: TierScheme) -> CorpusJob {
     CorpusJob::new_change_job(move |corpus, _| corpus.add_tiers(&recording, &scheme))
+}
+
+/// Does the same work on the tiers of many recordings, or only reports what it would do.
+pub(crate) fn work_on_tiers_job(scope: TierRoundScope, work: TierRoundWork, options: TierRoundOptions) -> CorpusJob {
+    let about = JobAbout {
+        task: tier_round_words::TASK,
+        quiet: true,
+        may_stop: true,
+        ..JobAbout::EDIT_JOB_ABOUT
+    };
+    CorpusJob::new(about, move |corpus, progress| {
+        let report = corpus.work_on_tiers(&scope, &work, options, progress);
+        report.map(WorkOutcome::Toured)
+    })
 }
 
 /// Changes a tier.

@@ -9,7 +9,7 @@ use chereme_corpus::{
     AdjudicationResult, AnnotateReport, AnnotatorAgreement, CheckReport, CueSlips, DeletionReport, DisplayedMovement,
     DrawnPicture, ExportReport, FitReport, FoundExpressions, ImportReport, KinematicCurves, MadePart, MergeReport,
     NonmanualOnsets, ObjectDetails, OperationRow, PerformanceChoice, PointsPiece, ProposalResult, RecombinationResult,
-    SearchAnswer, SignMap, SignSuggestions, TokenNeighbours,
+    SearchAnswer, SignMap, SignMeasures, SignSuggestions, TierRoundReport, TokenNeighbours, ValueTally,
 };
 use eframe::egui::ColorImage;
 
@@ -53,6 +53,12 @@ pub(crate) enum WorkOutcome {
     Looked(ObjectDetails),
     /// Tokens were found.
     Found(SearchAnswer),
+    /// The values of a field were counted.
+    Tallied(ValueTally),
+    /// What work on the tiers of many recordings did, or would do.
+    Toured(TierRoundReport),
+    /// The signs of a lexicon were measured one by one.
+    SignsMeasured(Arc<SignMeasures>),
     /// The annotations around tokens.
     Around(Vec<TokenNeighbours>),
     /// The map of signs.

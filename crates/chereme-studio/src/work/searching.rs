@@ -15,6 +15,14 @@ pub(crate) fn search_tokens_job(query: String, options: SearchOptions) -> Corpus
     })
 }
 
+/// Counts the values of a field among the tokens that a query finds.
+pub(crate) fn tally_values_job(query: String, field: String) -> CorpusJob {
+    CorpusJob::new(JobAbout::ASK_JOB_ABOUT, move |corpus, progress| {
+        let tally = corpus.tally_values(&query, &[field], progress);
+        tally.map(WorkOutcome::Tallied)
+    })
+}
+
 /// Returns the annotations before and after tokens, up to `most` on each side.
 pub(crate) fn load_neighbours_job(tokens: Vec<i64>, most: usize) -> CorpusJob {
     CorpusJob::new(JobAbout::ASK_JOB_ABOUT, move |corpus, _| {

@@ -9,11 +9,11 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use chereme_corpus::{AdjudicationResult, AgreeOptions, AnnotatorAgreement, RecordingContents, alike_tiers};
-use eframe::egui::{Button, CollapsingHeader, DragValue, ProgressBar, Role, ScrollArea, Ui, WidgetInfo};
+use eframe::egui::{Button, CollapsingHeader, DragValue, Role, ScrollArea, Ui, WidgetInfo};
 
 use self::agreement_data::{AgreementChoices, DisagreementKey, DisagreementKinds, DisagreementOrder, DisagreementRow};
 use super::saved_pane::{SavedFile, SavedTo};
-use super::{ActionOutcome, PaneInterface, combo, reach_focus};
+use super::{ActionOutcome, PaneInterface, combo, reach_focus, show_running_work};
 use crate::action::Action;
 use crate::command::{ChooserPurpose, CommandOutbox, WindowCommand};
 use crate::context::PaneInput;
@@ -212,7 +212,7 @@ impl AgreementPane {
             ] {
                 ui.checkbox(on, seen.say_text(text)).on_hover_text(seen.say_text(tip));
             }
-            self.running(ui, seen, out);
+            show_running_work(ui, seen, self.asking, out);
         });
         let header = CollapsingHeader::new(seen.say_text(words::SETTINGS)).id_salt("settings");
         header.show(ui, |ui| {
@@ -290,24 +290,6 @@ impl AgreementPane {
                 self.saved.saving = Some(out.request_work(job));
             }
         });
-    }
-
-    /// Shows how far the comparison is, and the button that stops it.
-    fn running(&self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
-        let Some(id) = self.asking.filter(|id| seen.is_running(Some(*id))) else {
-            return;
-        };
-        match seen
-            .work_progress(id)
-            .and_then(crate::work::WorkProgress::finished_share)
-        {
-            Some(share) => drop(ui.add(ProgressBar::new(share).desired_width(80.0))),
-            None => drop(ui.spinner()),
-        }
-        let stop = ui.button(seen.say_text(words::STOP));
-        if stop.on_hover_text(seen.say_text(words::TASK)).clicked() {
-            out.send_command(WindowCommand::Stop(id));
-        }
     }
 
     /// Shows why there is no comparison.

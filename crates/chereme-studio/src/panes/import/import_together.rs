@@ -4,12 +4,13 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use chereme_corpus::MergeReport;
-use eframe::egui::{Button, ProgressBar, RichText, ScrollArea, Ui};
+use eframe::egui::{Button, RichText, ScrollArea, Ui};
 
 use crate::action::Action;
 use crate::command::{CommandOutbox, WindowCommand};
 use crate::context::PaneInput;
-use crate::words::{fill_text_braces, import_words as words, merge_words, shell, translate_library_message};
+use crate::panes::show_running_work;
+use crate::words::{fill_text_braces, import_words as words, merge_words, translate_library_message};
 use crate::work::{WorkId, whole_corpus};
 
 /// Returns whether a path names a corpus.
@@ -27,19 +28,7 @@ pub(super) fn show_corpus_merge(
     report: Option<&MergeReport>,
 ) -> Option<WorkId> {
     ui.label(seen.say_text(words::MERGE_ABOUT));
-    if let Some((id, running)) = running.and_then(|id| Some((id, seen.running.get(&id)?))) {
-        ui.horizontal(|ui| {
-            match running.far.finished_share() {
-                Some(share) => {
-                    let bar = ProgressBar::new(share).desired_width(120.0);
-                    ui.add(bar.show_percentage());
-                }
-                None => drop(ui.spinner()),
-            }
-            if ui.button(seen.say_text(shell::CANCEL)).clicked() {
-                out.send_command(WindowCommand::Stop(id));
-            }
-        });
+    if ui.horizontal(|ui| show_running_work(ui, seen, running, out)).inner {
         return None;
     }
     let mut begun = None;

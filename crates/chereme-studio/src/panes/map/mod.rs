@@ -18,7 +18,6 @@ use super::notated_pane::AnimatedNotations;
 use crate::command::{CommandOutbox, WindowCommand};
 use crate::context::PaneInput;
 use crate::miniatures::{self, MiniatureCell, MiniatureMotion};
-use crate::model::InspectedThing;
 use crate::words::{fill_text_braces, inspector, map_words as words, translate_library_message};
 use crate::work::{WorkId, WorkOutcome, WorkResult, searching};
 use map_data::{MapView, OccupiedLabels};
@@ -223,7 +222,7 @@ impl MapPane {
                 let few = MOST_FIGURES / 2;
                 let to = self.view.view_near_place(rect, pos2(sign.x, sign.y), places, few);
                 self.towards = Some(to);
-                self.open_map_sign(seen, map.signs[at].token, out);
+                self.notated.choose_citation_sign(seen, map.signs[at].token, out);
             }
         }
     }
@@ -316,17 +315,6 @@ impl MapPane {
         }
     }
 
-    /// Shows a sign on the stage, animated if it has only a notation; or its coding in the inspector if it has no
-    /// movement.
-    fn open_map_sign(&mut self, seen: &PaneInput<'_>, token: i64, out: &mut CommandOutbox) {
-        let signs = &seen.snapshot.overview.signs;
-        let Some(sign) = signs.iter().find(|sign| sign.citation == Some(token)) else {
-            return out.send_command(WindowCommand::Inspect(InspectedThing::Token(token)));
-        };
-        self.notated
-            .choose_notated_sign(SignMovement::movement_of_sign(sign), token, &sign.gloss, out);
-    }
-
     /// Shows the opened notated sign on the stage once it is animated, even if another pane covers this one.
     pub(crate) fn show_animated_map_sign(&mut self, out: &mut CommandOutbox) {
         self.notated.show_opened_notation(out);
@@ -344,7 +332,7 @@ impl MapPane {
             for at in map_data::most_similar_signs(map, chosen) {
                 if ui.link(&map.signs[at].gloss).clicked() {
                     self.chosen = Some(at);
-                    self.open_map_sign(seen, map.signs[at].token, out);
+                    self.notated.choose_citation_sign(seen, map.signs[at].token, out);
                 }
             }
         });

@@ -10,6 +10,7 @@ use chereme_sign::{ComponentField, SignComponent};
 use serde_json::Value;
 
 use super::super::timeline::timeline_data::time_text;
+use crate::words::{InterfaceLanguage, InterfaceText, measures_words};
 
 /// How many hits are requested at once.
 pub(crate) const HIT_PAGE_SIZE: usize = 500;
@@ -17,7 +18,7 @@ pub(crate) const HIT_PAGE_SIZE: usize = 500;
 pub(crate) const MAX_HIT_NEIGHBOURS: usize = 3;
 
 /// The order of hits.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(crate) enum HitSort {
     #[default]
     Rank,
@@ -26,22 +27,40 @@ pub(crate) enum HitSort {
     Duration,
     Before,
     After,
+    /// By an attribute of the signs, the greatest number first if `descending`.
+    Attribute {
+        name: String,
+        descending: bool,
+    },
 }
 
 impl HitSort {
     /// Returns the order to request from the corpus.
-    pub(crate) fn corpus_order(self) -> HitOrder {
+    pub(crate) fn corpus_order(&self) -> HitOrder {
         match self {
             Self::Rank => HitOrder::Rank,
             Self::Gloss => HitOrder::Gloss,
             Self::Duration => HitOrder::Duration,
             Self::Place | Self::Before | Self::After => HitOrder::Place,
+            Self::Attribute {
+                name,
+                descending: false,
+            } => HitOrder::Attribute(name.clone()),
+            Self::Attribute { name, descending: true } => HitOrder::AttributeDescending(name.clone()),
         }
     }
 
     /// Returns whether hits are sorted here, as the corpus does not know their neighbours.
-    pub(crate) fn is_local(self) -> bool {
+    pub(crate) fn is_local(&self) -> bool {
         matches!(self, Self::Before | Self::After)
+    }
+
+    /// Returns the attribute that gives the order.
+    pub(crate) fn sort_attribute(&self) -> Option<&str> {
+        match self {
+            Self::Attribute { name, .. } => Some(name),
+            _ => None,
+        }
     }
 }
 
@@ -117,7 +136,7 @@ impl QueryAnswer {
     }
 
     /// Sorts the hits by their neighbours, or restores their own order.
-    pub(crate) fn sort_found_hits(&mut self, sort: HitSort) {
+    pub(crate) fn sort_found_hits(&mut self, sort: &HitSort) {
         self.sorted = None;
         if !sort.is_local() || !self.is_whole() {
             return;
@@ -149,6 +168,31 @@ pub(crate) fn place_text(hit: &SearchHit, lexicon: &str) -> String {
         Some((name, span)) => format!("{name} · {}", time_text(span.span_start_instant())),
         None => lexicon.to_owned(),
     }
+}
+
+/// The measures of signs that are stored as attributes.
+const MEASURE_WORDS: [(&str, InterfaceText); 9] = [
+    ("measure.density", measures_words::DENSITY),
+    ("measure.pairs", measures_words::PAIRS),
+    ("measure.homonyms", measures_words::HOMONYMS),
+    ("measure.family", measures_words::FAMILY),
+    ("measure.family-size", measures_words::FAMILY_SIZE),
+    ("measure.probability", measures_words::PROBABILITY),
+    ("measure.pair-probability", measures_words::PAIR_PROBABILITY_NAME),
+    ("measure.tokens", measures_words::TOKENS),
+    ("measure.signers", measures_words::SIGNERS),
+];
+
+/// Returns the name of an attribute as people read it: that of a measure in the words of the window.
+pub(crate) fn attribute_name_text(name: &str, language: InterfaceLanguage) -> &str {
+    let measure = MEASURE_WORDS.iter().find(|(measure, _)| *measure == name);
+    measure.map_or(name, |(_, text)| text.text_in_language(language))
+}
+
+/// Returns the values of a hit that give its place in an order by an attribute, after the name of the attribute.
+pub(crate) fn order_value_text(hit: &SearchHit, sort: &HitSort, language: InterfaceLanguage) -> Option<String> {
+    let name = attribute_name_text(sort.sort_attribute()?, language);
+    (!hit.order_values.is_empty()).then(|| format!("{name} {}", hit.order_values.join("; ")))
 }
 
 /// Returns the duration of a hit as text.
@@ -272,7 +316,7 @@ mod tests {
         found.put_hit_page(199, &[hit(7, "X")]);
         assert_eq!(found.hit_at(99_500).map(|hit| hit.token), Some(7));
         assert!(found.hit_at(700).is_none() && !found.is_whole());
-        found.sort_found_hits(HitSort::Before);
+        found.sort_found_hits(&HitSort::Before);
         assert_eq!(found.hit_at(0).map(|hit| hit.token), Some(0));
     }
 
@@ -287,10 +331,10 @@ mod tests {
         };
         found.put_around(&[around(0, &[]), around(1, &["A", "Z"]), around(2, &["B"])]);
         assert!(found.tokens_without_neighbours(0..3).is_empty());
-        found.sort_found_hits(HitSort::Before);
+        found.sort_found_hits(&HitSort::Before);
         let order: Vec<i64> = (0..3).filter_map(|at| Some(found.hit_at(at)?.token)).collect();
         assert_eq!(order, [2, 1, 0]);
-        found.sort_found_hits(HitSort::Place);
+        found.sort_found_hits(&HitSort::Place);
         assert_eq!(found.hit_at(0).map(|hit| hit.token), Some(0));
     }
 

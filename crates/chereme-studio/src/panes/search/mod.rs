@@ -5,6 +5,7 @@
 //! | `builder`, `rows` | the query as conditions: the data, and the rows |
 //! | `symbols` | the query for a notation |
 //! | `suggest`, `field` | the query as text: completions, and the field |
+//! | `order` | attributes: the order of hits by one, the counts of one |
 //! | `hits`, `results` | the results: pages and order; grid and table |
 //! | `page` | the pane from top to bottom |
 //! | `examples` | the signs that a query names as examples |
@@ -18,6 +19,7 @@ mod panes_search_facets;
 mod results;
 pub(crate) mod search_builder;
 mod search_field;
+mod search_order;
 mod search_page;
 mod search_rows;
 mod search_saved;
@@ -45,6 +47,7 @@ use crate::words::{fill_text_braces, search_words as words};
 use crate::work::{WorkId, WorkOutcome, WorkResult, searching};
 pub(crate) use hits::walk_hit_grid;
 use hits::{HIT_PAGE_SIZE, HitSort, MAX_HIT_NEIGHBOURS, QueryAnswer};
+pub(crate) use panes_search_facets::facet_name;
 pub(crate) use search_builder::with_value;
 use search_field::QueryField;
 use search_rows::ConditionRows;
@@ -75,6 +78,9 @@ pub(crate) struct SearchPane {
     built: bool,
     view: ResultsView,
     sort: HitSort,
+    /// Whether an order by an attribute begins with the greatest number.
+    descending: bool,
+    counted_attribute: search_order::CountedAttribute,
     /// Whether figures loop without the pointer over them; and whether they show the hand from near.
     playing: bool,
     close: bool,
@@ -139,6 +145,8 @@ impl Default for SearchPane {
             rows: ConditionRows::default(),
             view: ResultsView::default(),
             sort: HitSort::default(),
+            descending: true,
+            counted_attribute: search_order::CountedAttribute::default(),
             close: false,
             changed: None,
             asked: None,
@@ -205,7 +213,7 @@ impl SearchPane {
         let asks = sort.corpus_order() != self.sort.corpus_order();
         self.sort = sort;
         match &mut self.found {
-            Some(found) if !asks => found.sort_found_hits(sort),
+            Some(found) if !asks => found.sort_found_hits(&self.sort),
             _ => self.search_present_text(out),
         }
     }
@@ -343,6 +351,11 @@ impl SearchPane {
         self.generation = now;
         self.aside.forget_counts();
         self.notated.forget_animation_failures(now);
+        // An undo may take away the attribute that gave the order.
+        let attributes = &seen.snapshot.overview.attributes;
+        if (self.sort.sort_attribute()).is_some_and(|name| !attributes.iter().any(|known| known == name)) {
+            self.sort = HitSort::default();
+        }
         let asked = self.found.is_some() || self.wrong.is_some();
         if asked && self.changed.is_none() {
             self.search_present_text(out);
@@ -434,8 +447,11 @@ impl PaneInterface for SearchPane {
             self.around = None;
             if let (Ok(WorkOutcome::Around(around)), Some(found)) = (ended, &mut self.found) {
                 found.put_around(around);
-                found.sort_found_hits(self.sort);
+                found.sort_found_hits(&self.sort);
             }
+        }
+        if let Some(found) = &mut self.found {
+            self.counted_attribute.receive_attribute_counts(id, ended, found);
         }
         if let Some(page) = self.pages.remove(&id)
             && let (Ok(WorkOutcome::Found(answer)), Some(found)) = (ended, &mut self.found)
@@ -464,6 +480,7 @@ impl SearchPane {
             Ok(WorkOutcome::Found(answer)) => {
                 let same = self.found.as_ref().is_some_and(|earlier| earlier.query == answer.query);
                 self.found = Some(QueryAnswer::new(answer));
+                self.counted_attribute.forget_attribute_counts();
                 self.aside.forget_nothing();
                 if !same {
                     (self.at, self.opened, self.scrolled) = (0, None, 0.0);

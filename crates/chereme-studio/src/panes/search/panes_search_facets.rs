@@ -11,6 +11,7 @@ use eframe::egui::{
     vec2,
 };
 
+use super::hits::attribute_name_text;
 use super::search_rows::{component_text, feature_text};
 use crate::command::{CommandOutbox, WindowCommand};
 use crate::context::PaneInput;
@@ -117,15 +118,23 @@ pub(super) fn show_search_facets(
     chosen
 }
 
-/// Returns the fields of facets in the order of the components; other fields come last.
+/// Returns the name of an attribute that a query spells so, such as `attribute.frequency`.
+fn attribute_of_field(field: &str) -> Option<&str> {
+    let rest = field.strip_prefix("attribute")?;
+    let quoted = rest.strip_prefix("(\"").and_then(|rest| rest.strip_suffix("\")"));
+    quoted.or_else(|| rest.strip_prefix('.'))
+}
+
+/// Returns the fields of facets: an attribute, which the user asked for, the components in their order, other fields.
 pub(super) fn order_facet_fields<'a>(fields: impl Iterator<Item = &'a String>) -> Vec<&'a String> {
     let mut all: Vec<&String> = fields.collect();
     let place = |field: &&String| {
         let component = field.parse::<ComponentField>().ok().map(|parsed| parsed.component);
-        SignComponent::ALL_COMPONENTS
+        let place = SignComponent::ALL_COMPONENTS
             .iter()
             .position(|other| Some(*other) == component)
-            .unwrap_or(SignComponent::ALL_COMPONENTS.len())
+            .unwrap_or(SignComponent::ALL_COMPONENTS.len());
+        (attribute_of_field(field).is_none(), place)
     };
     all.sort_by_key(place);
     all
@@ -148,7 +157,11 @@ const FACET_HAND_WORDS: [(&str, InterfaceText); 3] = [
     ("weak", words::WEAK),
 ];
 
-fn facet_name(field: &str, seen: &PaneInput<'_>) -> String {
+/// Returns the name of a field in the words of the window.
+pub(crate) fn facet_name(field: &str, seen: &PaneInput<'_>) -> String {
+    if let Some(name) = attribute_of_field(field) {
+        return attribute_name_text(name, seen.language).to_owned();
+    }
     let Ok(known) = field.parse::<ComponentField>() else {
         let entry = OTHER_FACET_WORDS.iter().find(|(word, _)| *word == field);
         return entry.map_or(field, |(_, text)| seen.say_text(*text)).to_owned();
@@ -244,11 +257,13 @@ fn draw_facet_value(ui: &mut Ui, seen: &PaneInput<'_>, drawn: &DrawnFacetValue<'
             .map(|text| seen.say_text(text))
             .or_else(|| coded.map(|coded_value| pickers::pickers_data::short_name(coded_value, seen.language)))
             .unwrap_or(value);
+        let range = attribute_of_field(field).and_then(|_| value.split_once(" to "));
+        let value_text = range.map_or(value_text.to_owned(), |(from, to)| format!("{from} – {to}"));
         let count_position = rect.right_center() - vec2(6.0, 0.0);
         let weak = ui.visuals().weak_text_color();
         let counted = painter.text(count_position, Align2::RIGHT_CENTER, count, font.clone(), weak);
         // A long value is shortened before its count.
-        let mut job = LayoutJob::simple_singleline(value_text.to_owned(), font, text);
+        let mut job = LayoutJob::simple_singleline(value_text, font, text);
         job.wrap = TextWrapping::truncate_at_width((counted.left() - 6.0 - left).max(0.0));
         let line = painter.layout_job(job);
         let text_position = pos2(left, rect.center().y - line.size().y * 0.5);
@@ -288,11 +303,39 @@ mod tests {
 
     #[test]
     fn facets_stand_in_the_order_of_the_components() {
-        let fields = ["signer", "right.placement", "origin", "configuration"].map(str::to_owned);
+        let fields = [
+            "signer",
+            "right.placement",
+            "origin",
+            "configuration",
+            "attribute.frequency",
+        ]
+        .map(str::to_owned);
         let order: Vec<&str> = order_facet_fields(fields.iter())
             .into_iter()
             .map(String::as_str)
             .collect();
-        assert_eq!(order, ["configuration", "right.placement", "signer", "origin"]);
+        let wanted = [
+            "attribute.frequency",
+            "configuration",
+            "right.placement",
+            "signer",
+            "origin",
+        ];
+        assert_eq!(order, wanted);
+    }
+
+    #[test]
+    fn an_attribute_is_a_facet_by_the_name_that_queries_give_it() {
+        for name in ["frequency", "measure.density", "Sign Frequency"] {
+            let field = chereme_sign::query::attribute_field_text(name);
+            assert_eq!(attribute_of_field(&field), Some(name));
+            let narrowed = toggle_facet_condition("gloss=A", &field, "12").expect("a condition");
+            assert_eq!(
+                toggle_facet_condition(&narrowed, &field, "12").as_deref(),
+                Some("gloss=A")
+            );
+        }
+        assert_eq!(attribute_of_field("configuration"), None);
     }
 }

@@ -155,9 +155,12 @@ fn draw_result_figure(
     let weak = ui.visuals().weak_text_color();
     let where_to = hits::place_text(&hit, lexicon_hit_text(seen, &hit));
     paint_column_text(ui, line(26.0), &where_to, small, weak, false);
-    if let Some(score) = hit.score {
+    let alike = hit.score.map(|score| {
+        let share = score_to_percent(score);
+        fill_text_braces(seen.say_text(words::ALIKE), &[("share", &share)])
+    });
+    if let Some(text) = hits::order_value_text(&hit, &search.sort, seen.language).or(alike) {
         let score_position = picture.right_top() + vec2(-5.0, 4.0);
-        let text = fill_text_braces(seen.say_text(words::ALIKE), &[("share", &score_to_percent(score))]);
         let font = FontId::proportional(12.0);
         let galley = ui
             .painter()
@@ -280,7 +283,7 @@ fn draw_table_head(search: &mut SearchPane, ui: &mut Ui, seen: &PaneInput<'_>, o
         let place = Rect::from_min_size(pos2(left, rect.top()), vec2(width * share, RESULT_ROW_HEIGHT_POINTS));
         left = place.right();
         let usable = is_complete || !sort.is_local();
-        let key = ui.scope_id().with(("column", sort as usize));
+        let key = ui.scope_id().with(("column", column));
         let sense = if usable { Sense::click() } else { Sense::hover() };
         let response = ui.interact(place, key, sense);
         let chosen = search.sort == sort;
@@ -418,9 +421,10 @@ fn draw_result_line(
             vec2(rect.width() * share, RESULT_ROW_HEIGHT_POINTS),
         );
         left = place.right();
-        // The similarity is at the end of the gloss, which is shortened before it.
-        if let Some(score) = hit.score.filter(|_| sort == HitSort::Gloss) {
-            let share = format!("{} %", score_to_percent(score));
+        // The similarity, or the value that gives the order, is at the end of the gloss, which is shortened before it.
+        let alike = hit.score.map(|score| format!("{} %", score_to_percent(score)));
+        let end_text = hits::order_value_text(&hit, &search.sort, seen.language).or(alike);
+        if let Some(share) = end_text.filter(|_| sort == HitSort::Gloss) {
             let font = TextStyle::Small.resolve(ui.style());
             let painter = ui.painter().with_clip_rect(place.intersect(ui.clip_rect()));
             let share_position = place.right_center() - vec2(5.0, 0.0);
@@ -504,7 +508,10 @@ fn make_hit_clickable(
     let id = Id::unique("hits").with(at);
     let response = ui.interact(rect, id, Sense::click_and_drag());
     let place = hits::place_text(hit, lexicon_hit_text(seen, hit));
-    let name = format!("{}, {place}", hit.gloss);
+    let name = match hits::order_value_text(hit, &search.sort, seen.language) {
+        Some(value) => format!("{}, {place}, {value}", hit.gloss),
+        None => format!("{}, {place}", hit.gloss),
+    };
     let chosen = search.at == at;
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, &name));
     if search.reach == Some(at) {

@@ -5,8 +5,8 @@ use chereme_sign::query::TokenQuery;
 use eframe::egui::{RichText, Ui, vec2};
 
 use super::{
-    ResultsView, SEARCH_PAUSE_SECONDS, SearchPane, panes_search_facets, results, search_rows, search_suggest,
-    search_symbols, side_column,
+    ResultsView, SEARCH_PAUSE_SECONDS, SearchPane, panes_search_facets, results, search_order, search_rows,
+    search_suggest, search_symbols, side_column,
 };
 use crate::action::Action;
 use crate::command::{CommandOutbox, WindowCommand};
@@ -17,7 +17,9 @@ use crate::words::{InterfaceLanguage, fill_text_braces, search_words as words, t
 /// A pane wider than this, in points, has room for facets beside its results.
 const FACETS_BESIDE_WIDTH_POINTS: f32 = 520.0;
 /// If this much of the line is left, in points, all switches fit beside the number of results.
-const FULL_SWITCHES_WIDTH_POINTS: f32 = 340.0;
+const FULL_SWITCHES_WIDTH_POINTS: f32 = 430.0;
+/// If this much of the line is left, in points, the order fits beside the number of results.
+const ORDER_WIDTH_POINTS: f32 = 260.0;
 
 impl SearchPane {
     /// Draws the page, with the results `high` points high.
@@ -170,16 +172,29 @@ impl SearchPane {
                     self.view = view;
                 }
             }
-            let wide = ui.available_size_before_wrap().x > FULL_SWITCHES_WIDTH_POINTS;
-            if wide {
+            let room = ui.available_size_before_wrap().x;
+            let is_order_beside = room > ORDER_WIDTH_POINTS;
+            if is_order_beside {
+                self.choose_order(ui, seen, out);
+            }
+            if room > FULL_SWITCHES_WIDTH_POINTS {
                 self.form_switches(ui, seen, &mut counted);
             } else {
                 // A second line would take its height from the results.
                 ui.menu_button(seen.say_text(words::DISPLAY), |ui| {
-                    self.form_switches(ui, seen, &mut counted)
+                    if !is_order_beside {
+                        self.choose_order(ui, seen, out);
+                    }
+                    self.form_switches(ui, seen, &mut counted);
                 });
             }
         });
+    }
+
+    fn choose_order(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+        if let Some(sort) = search_order::show_order_menu(ui, seen, &self.sort, &mut self.descending) {
+            self.sort_by(sort, out);
+        }
     }
 
     /// Draws the switches for the form of the results.
@@ -222,6 +237,7 @@ impl SearchPane {
             return results::show_search_results(self, ui, seen, out);
         }
         let wide = ui.available_width() > FACETS_BESIDE_WIDTH_POINTS;
+        self.counted_attribute.request_attribute_counts(&self.query, out);
         let facets = found.facets.clone();
         let query = self.field.text.clone();
         let mut wanted = None;
@@ -233,15 +249,16 @@ impl SearchPane {
                     ui.set_width(room.x - side - 10.0);
                     ui.vertical(|ui| results::show_search_results(self, ui, seen, out));
                 });
-                let conditions = &mut self.conditions;
                 ui.vertical(|ui| {
-                    wanted =
-                        panes_search_facets::show_search_facets(ui, seen, &facets, &query, conditions, room.y, out);
+                    self.show_count_menu(ui, seen);
+                    let (conditions, high) = (&mut self.conditions, ui.available_height());
+                    wanted = panes_search_facets::show_search_facets(ui, seen, &facets, &query, conditions, high, out);
                 });
             });
         } else {
             let high = (ui.available_height() * 0.35).min(150.0);
             ui.allocate_ui(vec2(ui.available_width(), high), |ui| {
+                self.show_count_menu(ui, seen);
                 let conditions = &mut self.conditions;
                 wanted = panes_search_facets::show_search_facets(ui, seen, &facets, &query, conditions, high, out);
             });

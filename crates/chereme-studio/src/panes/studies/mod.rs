@@ -19,12 +19,12 @@ use std::sync::Arc;
 use chereme_corpus::remedy::ErrorRemedy;
 use chereme_corpus::study::{NamedText, StudyOverview};
 use chereme_corpus::{Corpus, CorpusError};
-use eframe::egui::{Button, CollapsingHeader, ProgressBar, ScrollArea, Ui};
+use eframe::egui::{Button, CollapsingHeader, ScrollArea, Ui};
 
 use self::drafted::{DraftedPlan, StudyDraft};
 use self::studies_trials::RequestedTrialClip;
 use super::saved_pane::{PathField, SavedFile, SavedTo};
-use super::{PaneInterface, list_row, reach_focus};
+use super::{PaneInterface, list_row, reach_focus, show_running_work};
 use crate::command::{ChooserPurpose, CommandOutbox, WindowCommand};
 use crate::context::PaneInput;
 use crate::window_remedy;
@@ -441,21 +441,12 @@ fn progress(
     task: InterfaceText,
     out: &mut CommandOutbox,
 ) -> bool {
-    let Some(id) = work.filter(|id| seen.is_running(Some(*id))) else {
+    if !seen.is_running(work) {
         return false;
-    };
+    }
     ui.horizontal_wrapped(|ui| {
-        match seen
-            .work_progress(id)
-            .and_then(crate::work::WorkProgress::finished_share)
-        {
-            Some(share) => drop(ui.add(ProgressBar::new(share).desired_width(120.0))),
-            None => drop(ui.spinner()),
-        }
         ui.label(seen.say_text(task));
-        if ui.button(seen.say_text(shell::CANCEL)).clicked() {
-            out.send_command(WindowCommand::Stop(id));
-        }
+        show_running_work(ui, seen, work, out);
     });
     true
 }

@@ -210,8 +210,15 @@ pub(crate) fn role_text(role: &str, seen: &PaneInput<'_>) -> String {
     }
 }
 
+/// Returns the hands that a tier can describe, with no hand first.
+pub(crate) fn tier_hand_choices(seen: &PaneInput<'_>) -> Vec<(Option<AnnotatedHands>, String)> {
+    let hands = TIER_HAND_WORDS.map(|(hand, text)| (AnnotatedHands::from_hand_name(hand), text));
+    let all = std::iter::once((None, words::HAND_NONE)).chain(hands);
+    all.map(|(hand, text)| (hand, seen.say_text(text).to_owned())).collect()
+}
+
 /// Returns the possible roles of a tier: those without components, then those with inventories.
-fn possible_tier_roles(seen: &PaneInput<'_>) -> Vec<(String, String)> {
+pub(crate) fn possible_tier_roles(seen: &PaneInput<'_>) -> Vec<(String, String)> {
     let mut all: Vec<(String, String)> = TierRole::PLAIN_TIER_ROLES
         .iter()
         .map(|role| {
@@ -360,10 +367,7 @@ fn show_tier_form(ui: &mut Ui, scene: &TimelineScene<'_>, tier: &mut TierBox) {
             if chosen && tier.what == TierBoxPurpose::Add {
                 tier.fit_role_defaults(scene);
             }
-            let mut hands = vec![(None, seen.say_text(words::HAND_NONE).to_owned())];
-            for (hand, text) in TIER_HAND_WORDS {
-                hands.push((AnnotatedHands::from_hand_name(hand), seen.say_text(text).to_owned()));
-            }
+            let hands = tier_hand_choices(seen);
             let hand_entry = hands.iter().find(|(hand, _)| *hand == tier.hand);
             let now = hand_entry.map_or(String::new(), |(_, name)| name.clone());
             show_tier_drop_down(ui, seen.say_text(words::TIER_HAND), &now, &hands, |hand| {
@@ -410,7 +414,18 @@ fn name_field(ui: &mut Ui, seen: &PaneInput<'_>, tier: &mut TierBox) {
 }
 
 fn copy_form(ui: &mut Ui, seen: &PaneInput<'_>, tier: &mut TierBox) {
-    let text = match &tier.copied {
+    Grid::new("tier copy form")
+        .num_columns(2)
+        .spacing([12.0, 8.0])
+        .show(ui, |ui| {
+            name_field(ui, seen, tier);
+            show_copied_choice(ui, seen, &mut tier.copied);
+        });
+}
+
+/// Shows the rows of a grid that choose the annotations to copy with a tier.
+pub(crate) fn show_copied_choice(ui: &mut Ui, seen: &PaneInput<'_>, copied: &mut CopiedAnnotations) {
+    let text = match &*copied {
         CopiedAnnotations::Holding(text) => text.clone(),
         _ => String::new(),
     };
@@ -420,24 +435,18 @@ fn copy_form(ui: &mut Ui, seen: &PaneInput<'_>, tier: &mut TierBox) {
         (CopiedAnnotations::Nothing, words::COPIED_NOTHING),
         (CopiedAnnotations::Holding(text), words::COPIED_HOLDING),
     ];
-    let all = copied_texts.map(|(copied, text)| (copied, seen.say_text(text).to_owned()));
-    let chosen_entry = all.iter().find(|(copied, _)| *copied == tier.copied);
+    let all = copied_texts.map(|(choice, text)| (choice, seen.say_text(text).to_owned()));
+    let chosen_entry = all.iter().find(|(choice, _)| choice == copied);
     let now = chosen_entry.map_or(String::new(), |(_, text)| text.clone());
-    Grid::new("tier copy form")
-        .num_columns(2)
-        .spacing([12.0, 8.0])
-        .show(ui, |ui| {
-            name_field(ui, seen, tier);
-            show_tier_drop_down(ui, seen.say_text(words::COPIED_WHAT), &now, &all, |copied| {
-                tier.copied = copied.clone();
-            });
-            if let CopiedAnnotations::Holding(text) = &mut tier.copied {
-                let label = ui.label(seen.say_text(words::COPIED_TEXT));
-                let field = script_edit::draw_text_line(ui, text, |field| field.desired_width(220.0));
-                field.response.response.labelled_by(label.id);
-                ui.end_row();
-            }
-        });
+    show_tier_drop_down(ui, seen.say_text(words::COPIED_WHAT), &now, &all, |choice| {
+        copied.clone_from(choice);
+    });
+    if let CopiedAnnotations::Holding(text) = copied {
+        let label = ui.label(seen.say_text(words::COPIED_TEXT));
+        let field = script_edit::draw_text_line(ui, text, |field| field.desired_width(220.0));
+        field.response.response.labelled_by(label.id);
+        ui.end_row();
+    }
 }
 
 const TIER_HAND_WORDS: [(&str, InterfaceText); 5] = [
@@ -449,7 +458,13 @@ const TIER_HAND_WORDS: [(&str, InterfaceText); 5] = [
 ];
 
 /// Shows a drop-down list.
-fn show_tier_drop_down<T>(ui: &mut Ui, name: &str, now: &str, all: &[(T, String)], mut choose: impl FnMut(&T)) {
+pub(crate) fn show_tier_drop_down<T>(
+    ui: &mut Ui,
+    name: &str,
+    now: &str,
+    all: &[(T, String)],
+    mut choose: impl FnMut(&T),
+) {
     let label = ui.label(name);
     let combo = ComboBox::from_id_salt(name)
         .selected_text(now)
