@@ -77,7 +77,7 @@ fn tiny(window: &Window<'_>) -> BTreeSet<String> {
 /// Visits every pane in every layout.
 fn walk(window: &mut Window<'_>, label: &str) {
     const LAYOUTS: [Key; 3] = [Key::F1, Key::F2, Key::F3];
-    const PANES: [(Modifiers, Key); 10] = [
+    const PANES: [(Modifiers, Key); 11] = [
         (Modifiers::SHIFT, Key::F1),
         (Modifiers::SHIFT, Key::F2),
         (Modifiers::SHIFT, Key::F3),
@@ -88,6 +88,7 @@ fn walk(window: &mut Window<'_>, label: &str) {
         (Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::I),
         (Modifiers::COMMAND.plus(Modifiers::ALT), Key::B),
         (Modifiers::COMMAND.plus(Modifiers::ALT), Key::O),
+        (Modifiers::COMMAND.plus(Modifiers::ALT), Key::I),
     ];
     for layout in LAYOUTS {
         window.key_press_modifiers(Modifiers::COMMAND, layout);
@@ -107,6 +108,7 @@ fn walk(window: &mut Window<'_>, label: &str) {
         (Modifiers::COMMAND, Key::Comma),
         (Modifiers::COMMAND | Modifiers::SHIFT, Key::P),
         (Modifiers::COMMAND | Modifiers::SHIFT, Key::E),
+        (Modifiers::COMMAND | Modifiers::SHIFT | Modifiers::ALT, Key::U),
     ] {
         window.key_press_modifiers(modifiers, overlay);
         window.run_steps(3);
@@ -231,6 +233,7 @@ fn menus_and_dialogues_are_in_reach_in_small_windows_in_either_language() {
                 (Modifiers::COMMAND, Key::Comma),
                 (Modifiers::COMMAND | Modifiers::SHIFT, Key::P),
                 (Modifiers::COMMAND | Modifiers::SHIFT, Key::E),
+                (Modifiers::COMMAND | Modifiers::SHIFT | Modifiers::ALT, Key::U),
             ] {
                 window.key_press_modifiers(modifiers, overlay);
                 window.run_steps(4);

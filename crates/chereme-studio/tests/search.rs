@@ -438,7 +438,7 @@ fn taking_over_searches_of_this_computer_asks_before_one_is_replaced() {
 fn stored_measures_order_and_count_the_hits() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open_starter(folder.path());
-    window.key_press_modifiers(Modifiers::COMMAND | Modifiers::ALT, Key::Q);
+    window.key_press_modifiers(Modifiers::COMMAND | Modifiers::ALT, Key::I);
     until(&mut window, "the measures", |it| contains(it, "Signs measured: "));
     click(&mut window, "Sort by gloss");
     let rows = || window.query_all_by_label_contains(", neighbours ");

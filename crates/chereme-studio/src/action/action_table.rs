@@ -205,7 +205,7 @@ actions! {
     ShowInspector "pane.inspector" Panes, Corpus, Shows(Inspector), "Shift+F4" "=" "=";
     ShowFilm "pane.film" Panes, Corpus, Shows(Film), "Shift+F5" "=" "=";
     ShowMap "pane.map" Panes, Corpus, Shows(Map), "Ctrl+Alt+K" "=" "=";
-    ShowMeasures "pane.measures" Panes, Corpus, Shows(Measures), "Ctrl+Alt+Q" "=" "=";
+    ShowMeasures "pane.measures" Panes, Corpus, Shows(Measures), "Ctrl+Alt+I" "=" "=";
     ShowCue "pane.cue" Panes, Corpus, Shows(Cue), "Ctrl+Alt+L" "=" "=";
     ShowFaces "pane.faces" Panes, Corpus, Shows(Faces), "Ctrl+Alt+V" "=" "=";
     ShowAgreement "pane.agreement" Panes, Corpus, Shows(Agreement), "Ctrl+Alt+B" "=" "=";

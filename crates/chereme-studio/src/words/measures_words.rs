@@ -36,8 +36,8 @@ texts! {
     PROBABILITY: "probability", "probabilité";
     PAIR_PROBABILITY: "of pairs", "des paires";
     PAIR_PROBABILITY_NAME: "probability of pairs", "probabilité des paires";
-    TOKENS: "tokens", "occurrences";
-    SIGNERS: "signers", "participants";
+    TOKENS: "tokens", "emplois";
+    SIGNERS: "signers", "signeurs";
     ROW: "{gloss}, neighbours {n}", "{gloss}, voisins {n}";
     PAIRS_TIP: "Minimal pairs by field: {pairs}", "Paires minimales par champ : {pairs}";
     HOMONYMS_TIP: "Homonyms: {glosses}", "Homonymes : {glosses}";

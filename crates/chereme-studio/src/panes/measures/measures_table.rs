@@ -22,14 +22,14 @@ impl MeasureColumn {
     /// The columns with their titles, and their shares of the width.
     pub(super) const ALL_MEASURE_COLUMNS: [(Self, InterfaceText, f32); 9] = [
         (Self::Gloss, search_words::GLOSS, 0.16),
-        (Self::Density, words::DENSITY, 0.11),
+        (Self::Density, words::DENSITY, 0.13),
         (Self::Pairs, words::PAIRS, 0.14),
-        (Self::Homonyms, words::HOMONYMS, 0.11),
+        (Self::Homonyms, words::HOMONYMS, 0.12),
         (Self::Family, words::FAMILY, 0.08),
         (Self::Probability, words::PROBABILITY, 0.11),
-        (Self::PairProbability, words::PAIR_PROBABILITY, 0.09),
-        (Self::Tokens, words::TOKENS, 0.1),
-        (Self::Signers, words::SIGNERS, 0.1),
+        (Self::PairProbability, words::PAIR_PROBABILITY, 0.08),
+        (Self::Tokens, words::TOKENS, 0.09),
+        (Self::Signers, words::SIGNERS, 0.09),
     ];
 
     /// Returns the number of a sign in this column; `None` in the column of glosses, or without one.
