@@ -5,6 +5,7 @@
 
 mod curves_table;
 mod fap;
+mod live_link;
 mod mediapipe;
 mod packets;
 #[cfg(test)]
@@ -22,6 +23,8 @@ use crate::scene::near_usual;
 use crate::table::{TableError, decode_table_bytes};
 use crate::tally::FindingTally;
 use crate::tracks::{CapturedTrackContent, CapturedTracks, FileTrack, rate_of, unique_track_names};
+pub use live_link::write_live_link_csv;
+
 pub(crate) use curves_table::{ColumnTimeUnit, are_micros, are_millis, unit_of_time};
 
 /// Largest distance of a time from an even grid, as a share of a frame, at which the rate still counts as even.

@@ -159,6 +159,26 @@ fn leaves_out(codes: &[VideoTimecode], base: f64) -> bool {
     codes.windows(2).any(leaps) && !codes.iter().any(within)
 }
 
+/// Returns a time of day as a timecode that counts 60 frames a second and their thousandths, as phones write it:
+/// `12:34:56:07.250`. After midnight it begins again.
+pub(crate) fn format_timecode(at: RecordingInstant) -> String {
+    const THOUSANDTHS_PER_SECOND: i64 = 60_000;
+    let micros = i128::from(at.instant_micros()) * i128::from(THOUSANDTHS_PER_SECOND);
+    let thousandths = (micros + 500_000).div_euclid(1_000_000) as i64;
+    let thousandths = thousandths.rem_euclid(86_400 * THOUSANDTHS_PER_SECOND);
+    let (seconds, part) = (
+        thousandths / THOUSANDTHS_PER_SECOND,
+        thousandths % THOUSANDTHS_PER_SECOND,
+    );
+    let (minutes, hours) = (seconds / 60 % 60, seconds / 3600);
+    format!(
+        "{hours:02}:{minutes:02}:{:02}:{:02}.{:03}",
+        seconds % 60,
+        part / 1000,
+        part % 1000
+    )
+}
+
 /// Returns the time of day of one timecode, such as `12:34:56:07@25`: the number after the `@` is the number of frames
 /// in a second; without it, it follows from the capture's `rate`.
 ///

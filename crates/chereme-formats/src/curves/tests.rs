@@ -564,6 +564,75 @@ fn faces_of_others_keep_every_number() {
 }
 
 #[test]
+fn a_take_of_live_link_is_written_number_by_number() {
+    let Some(folder) = std::env::var_os("CHEREME_SHARED_DATA") else {
+        eprintln!("skipped: CHEREME_SHARED_DATA names no folder");
+        return;
+    };
+    let folder = std::path::Path::new(&folder).join("face");
+    for path in [
+        "alexdjulin-LiveLinkFace/alex_rom_4.csv",
+        "think-biq-LLV/dao_decoded.csv",
+    ] {
+        let file_text = std::fs::read_to_string(folder.join(path)).expect("a file");
+        let (tracks, _) = read_curves(file_text.as_bytes()).expect("curves");
+        let (track, day) = (&tracks.tracks[0], tracks.tracks[0].clock.expect("a time of day"));
+        let CapturedTrackContent::Curves(curves) = &track.content else {
+            panic!("curves");
+        };
+        let (written, findings) = write_live_link_csv(curves, day).expect("shapes of ARKit");
+        assert!(findings.is_empty(), "{findings:?}");
+        let cells = |line: &str| line.trim().split(',').map(str::to_owned).collect::<Vec<_>>();
+        assert_eq!(written.lines().count(), file_text.lines().count(), "{path}");
+        for (number, (expected, found)) in file_text.lines().map(cells).zip(written.lines().map(cells)).enumerate() {
+            assert_eq!(found.len(), 63);
+            for (expected, found) in expected.iter().zip(&found) {
+                let same_number = expected.parse::<f64>().is_ok_and(|one| found.parse() == Ok(one));
+                assert!(expected == found || same_number, "{path}:{number}: {expected} {found}");
+            }
+        }
+    }
+}
+
+#[test]
+fn faces_of_other_systems_get_the_columns_of_live_link() {
+    let (curves, _, _) =
+        curves("time,jawOpen,browInnerUp,eyeBlink_L,HeadYaw [deg],joy\n86399.99,50,0,100,90,7\n86400.01,,,,,\n");
+    let begin = RecordingInstant::from_seconds(86399.99);
+    let (text, findings) = write_live_link_csv(&curves, begin).expect("shapes of ARKit");
+    let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
+    let cell = |row: usize, title: &str| {
+        let at = rows[0].iter().position(|other| *other == title).expect("a column");
+        rows[row][at]
+    };
+    assert_eq!(
+        [cell(1, "Timecode"), cell(2, "Timecode")],
+        ["23:59:59:59.400", "00:00:00:00.600"]
+    );
+    assert_eq!(
+        [cell(1, "BlendShapeCount"), cell(1, "TongueOut"), cell(2, "JawOpen")],
+        ["61", "0", ""]
+    );
+    assert_eq!(
+        [cell(1, "JawOpen"), cell(1, "EyeBlinkLeft")],
+        ["0.5000000000", "1.0000000000"]
+    );
+    assert_eq!(cell(1, "HeadYaw"), "1.5707963268");
+    for said in [
+        "does not have are 0: EyeLookDownLeft",
+        "left out: joy",
+        "converted to the units",
+    ] {
+        assert!(
+            findings.iter().any(|finding| finding.message.contains(said)),
+            "{said}: {findings:?}"
+        );
+    }
+    let (others, _, _) = self::curves("time,Fx,Fy\n0,1,2\n0.01,1,2\n");
+    assert_eq!(write_live_link_csv(&others, begin), None);
+}
+
+#[test]
 fn frames_of_a_face_need_their_rate() {
     let table = |first: &str| format!("{first},jawOpen,browInnerUp,eyeBlinkLeft\n0,0,0,0\n1,0.5,0,0\n");
     let error = read_curves(table("frame").as_bytes()).expect_err("no rate");

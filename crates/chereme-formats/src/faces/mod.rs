@@ -190,6 +190,22 @@ impl FaceSystem {
         })
     }
 
+    /// Reports whether the channels are ARKit's shapes, which Live Link Face has columns for.
+    #[must_use]
+    pub fn has_live_link_shapes(&self) -> bool {
+        ["arkit", "mediapipe"].contains(&self.id.as_str())
+    }
+
+    /// Returns the position of the curve that has this channel, by its name or another name of the system.
+    pub(crate) fn position_of_channel(&self, curves: &CurveTrack, channel: &str) -> Option<usize> {
+        let wanted_name = plain_channel_name(channel);
+        curves.track_curves().iter().position(|curve| {
+            let name = plain_channel_name(&curve.name);
+            let alias = self.aliases.iter().find(|(alias, _)| plain_channel_name(alias) == name);
+            alias.map_or(name, |(_, channel)| plain_channel_name(channel)) == wanted_name
+        })
+    }
+
     /// Returns the face that the channels of this system describe.
     #[must_use]
     pub fn derive_face_view(&'static self, curves: &CurveTrack) -> DerivedFaceView {
@@ -357,7 +373,7 @@ fn plain_channel_name(name: &str) -> String {
 }
 
 /// The value above which numbers that should be shares are percent: trackers exceed 1 a little.
-const PERCENT_VALUE_LIMIT: f64 = 2.0;
+pub(crate) const PERCENT_VALUE_LIMIT: f64 = 2.0;
 /// The value above which they are percent without a doubt.
 const CLEARLY_PERCENT: f64 = 10.0;
 
