@@ -39,6 +39,7 @@ pub mod tracks;
 pub mod transcript;
 pub mod trc;
 mod windows_1252;
+pub mod xra;
 
 pub use finding::{FindingSeverity, ImportFinding, ReaderCorrection};
 pub use markup::MarkupError;

@@ -8,7 +8,7 @@ use chereme_formats::bvh::raw::{BvhReader, MotionBlock};
 use chereme_formats::roles::TierMapping;
 use chereme_formats::{
     anvil, c3d, curves, eaf, exmaralda, gltf, hns, keypoints, lexicon, points as point_tables, pose, sigml, signstream,
-    subtitles, table, textgrid, trc,
+    subtitles, table, textgrid, trc, xra,
 };
 use chereme_motion::{
     Clip, FrameNumberColumn, FrameRate, FrameTimes, MarkerSpace, MarkerTrack, MotionMarker, RecordingInstant, Skeleton,
@@ -75,6 +75,12 @@ const EXB: &str = r#"<basic-transcription><head><meta-information><referenced-fi
 <abbreviation>A</abbreviation></speaker></speakertable></head><basic-body><common-timeline><tli id="T0" time="0"/><tli id="T1"/><tli id="T2" time="2"/>
 </common-timeline><tier id="t" speaker="S" category="v" type="t"><event start="T0" end="T1">x</event><event start="T1" end="T2">y &amp; z</event></tier>
 </basic-body></basic-transcription>"#;
+const XRA: &str = "<Document author=\"a\" format=\"1.5\"><Metadata><Entry key=\"k\">v</Entry></Metadata>\
+    <Tier id=\"t\" tiername=\"Phones\"><Annotation id=\"a\"><Location><Interval score=\"0.5\"><Begin midpoint=\"0.1\"/>\
+    <End midpoint=\"0.2\"/></Interval><Point midpoint=\"0.1\"/></Location><Label><Tag score=\"1\">O/</Tag><Tag>o</Tag></Label>\
+    </Annotation></Tier><Tier id=\"u\"/><Hierarchy><Link type=\"TimeAlignment\" from=\"t\" to=\"u\"/></Hierarchy>\
+    <Vocabulary id=\"v\"><Entry>O/</Entry><Tier id=\"t\"/></Vocabulary></Document>";
+
 const SIGNSTREAM: &str = r#"<SIGNSTREAM-DATABASE><PARTICIPANTS><PARTICIPANT ID="0" NAME="B"/></PARTICIPANTS><CODING-SCHEME><FIELD ID="1" NAME="gloss">
 <VALUE ID="2" NAME="v"/></FIELD></CODING-SCHEME><MEDIA-FILES><MEDIA-FILE ID="1" LEGACY-PATH="a.mov"/></MEDIA-FILES><UTTERANCES><UTTERANCE ID="3"
 S="666" E="3333"><MEDIA-REF ID="1"/><SEGMENT PARTICIPANT-ID="0"><TRACK FID="1"><A S="0" E="9" VID="2"/><A S="10" E="20">X</A></TRACK></SEGMENT>
@@ -221,6 +227,7 @@ fn formats() -> Vec<Format> {
         }),
         format("anvil", ANVIL, |bytes| anvil::read_anvil(bytes).is_ok()),
         format("exmaralda", EXB, |bytes| exmaralda::read_exmaralda(bytes).is_ok()),
+        format("xra", XRA, |bytes| xra::read_xra(bytes).is_ok()),
         format("signstream", SIGNSTREAM, |bytes| {
             signstream::read_signstream_file(bytes).is_ok()
         }),

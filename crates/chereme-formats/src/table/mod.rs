@@ -10,9 +10,9 @@ pub mod people_table;
 mod table_cells;
 mod table_rows;
 
-pub use table_cells::TableError;
 pub(crate) use table_cells::{
     MAX_PADDED_CELLS, MAX_TABLE_COLUMNS, TableCells, TableRow, decode_table_bytes, is_gap, join_column_names,
     lines_above_titles,
 };
+pub use table_cells::{TableError, decode_table_text};
 pub use table_rows::{tab_rows, write_tab_rows};

@@ -255,6 +255,14 @@ fn fit_row_width(mut row: TableRow, width: usize, findings: &mut FindingTally) -
     row
 }
 
+/// Returns the text of a table in UTF-8, in UTF-16 with a byte order mark, or otherwise in Windows-1252.
+///
+/// # Errors
+/// [`TableError`] if the bytes are no text.
+pub fn decode_table_text(bytes: &[u8]) -> Result<String, TableError> {
+    decode_table_bytes(bytes, &mut FindingTally::default()).map(Cow::into_owned)
+}
+
 /// Returns the text of bytes in UTF-8, in UTF-16 with a byte order mark, or otherwise in Windows-1252.
 pub(crate) fn decode_table_bytes<'b>(bytes: &'b [u8], findings: &mut FindingTally) -> Result<Cow<'b, str>, TableError> {
     let read_unit: Option<fn([u8; 2]) -> u16> = match bytes {

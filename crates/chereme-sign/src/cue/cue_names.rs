@@ -38,7 +38,8 @@ pub fn of_gloss(text: &str) -> Option<(&str, u8)> {
 }
 
 /// The letters of placements in the annotation of SPPAS, which writes the shape first.
-const SPPAS_PLACEMENT_LETTERS: [(&str, &str); 5] = [
+const SPPAS_PLACEMENT_LETTERS: [(&str, &str); 6] = [
+    ("n", "rest"),
     ("s", "side"),
     ("m", "mouth"),
     ("c", "chin"),
@@ -48,11 +49,12 @@ const SPPAS_PLACEMENT_LETTERS: [(&str, &str); 5] = [
 
 /// Returns the placement and the shape of a key on a tier or in a query; `None` if the text is none.
 ///
-/// A key is a gloss, the same without its prefix, SPPAS's shape and letter, or the two digits of the paper.
+/// A key is a gloss, the same without its prefix, SPPAS's shape and letter with a hyphen, a blank or an end of line
+/// between them, or the two digits of the paper.
 ///
 /// ```
 /// use chereme_sign::cue::key_of_label;
-/// for text in ["cue:mouth-4", "mouth-4", "4-m", "4-mouth", "24"] {
+/// for text in ["cue:mouth-4", "mouth-4", "4-m", "4-mouth", "4 m", "4\nm", "24"] {
 ///     assert_eq!(key_of_label(text), Some(("mouth", 4)));
 /// }
 /// assert_eq!(key_of_label("papa"), None);
@@ -64,7 +66,7 @@ pub fn key_of_label(text: &str) -> Option<(&str, u8)> {
         return of_gloss(text);
     }
     let is_digit = |part: &str| part.len() == 1 && part.bytes().all(|byte| byte.is_ascii_digit());
-    let (placement, shape) = match text.split_once('-') {
+    let (placement, shape) = match text.split_once(['-', ' ', '\n']) {
         Some((shape, placement)) if is_digit(shape) => {
             let letter = SPPAS_PLACEMENT_LETTERS.iter().find(|(letter, _)| *letter == placement);
             (letter.map_or(placement, |(_, name)| *name), shape)
@@ -77,6 +79,13 @@ pub fn key_of_label(text: &str) -> Option<(&str, u8)> {
     };
     let shape = shape.parse().ok().filter(|_| is_digit(shape))?;
     (shape <= 8 && PLACEMENT_NUMBERS.contains(&placement)).then_some((placement, shape))
+}
+
+/// Returns a key as the two labels that SPPAS gives it: the shape, and the letter of the placement.
+#[must_use]
+pub fn sppas_key_labels(placement: &str, shape: u8) -> Option<[String; 2]> {
+    let (letter, _) = SPPAS_PLACEMENT_LETTERS.iter().find(|(_, name)| *name == placement)?;
+    Some([shape.to_string(), (*letter).to_owned()])
 }
 
 /// Returns the placement of a number of the paper, such as 2 for `mouth`.

@@ -18,7 +18,7 @@ mod tests;
 mod utterance;
 mod written;
 
-pub use cue_names::{gloss_cue_key, key_of_label, of_gloss, placement_number, placement_of_number};
+pub use cue_names::{gloss_cue_key, key_of_label, of_gloss, placement_number, placement_of_number, sppas_key_labels};
 pub use espeak::of_espeak;
 pub use utterance::{CuedUtterance, UtteranceError, UtteranceReading};
 
