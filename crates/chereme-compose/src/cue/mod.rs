@@ -79,6 +79,7 @@ pub(crate) fn read_cue_utterance(settings: &CueSettings) -> Result<CuedUtterance
         variants,
         french,
         pace: Some(settings.pace.map_or(CUE_PACE_FACTOR, |pace| pace.0)),
+        dictionary: None,
     };
     let spoken = CuedUtterance::read_cued_utterance(&settings.text, &reading)
         .map_err(|error| StepError::Utterance(Box::new(error)))?;

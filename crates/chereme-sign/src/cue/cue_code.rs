@@ -237,6 +237,12 @@ impl CueCode {
         Some(vec![place.id.clone()])
     }
 
+    /// Returns whether a symbol in SAMPA is a consonant or a vowel of the code.
+    #[must_use]
+    pub fn knows_sound(&self, symbol: &str) -> bool {
+        self.shape_of(symbol).is_some() || self.path_of(symbol).is_some()
+    }
+
     /// Returns whether a label means silence.
     #[must_use]
     pub fn is_pause(&self, label: &str) -> bool {
@@ -261,8 +267,7 @@ impl CueCode {
     }
 
     fn translate_phone_label(&self, label: &str, alphabet: PhoneAlphabet) -> Option<Vec<String>> {
-        let is_known_symbol =
-            |symbol: &str| self.is_pause(symbol) || self.shape_of(symbol).is_some() || self.path_of(symbol).is_some();
+        let is_known_symbol = |symbol: &str| self.is_pause(symbol) || self.knows_sound(symbol);
         let is_own = alphabet == PhoneAlphabet::Sampa && is_known_symbol(label);
         if is_own {
             return Some(vec![label.to_owned()]);

@@ -29,7 +29,18 @@ pub(super) fn read_french_number(rest: &[char]) -> (usize, Option<Vec<String>>) 
             None,
         );
     }
+    if let Some(read) = read_parted_number(rest) {
+        return read;
+    }
     let mut digit_text: String = rest[..length].iter().collect();
+    // *007*: zeros before a number are said.
+    let zeros = digit_text.len() - digit_text.trim_start_matches('0').len();
+    if zeros > 0 && length > 1 && rest.get(length) != Some(&'h') {
+        let mut words = vec![SMALL_NUMBER_WORDS[0].to_owned(); zeros.min(length - 1)];
+        let value = digit_text.parse().ok().filter(|value| *value <= MAX_READ_NUMBER);
+        words.extend(value.map(cardinal).unwrap_or_default());
+        return (length, value.map(|_| words));
+    }
     let groups = length <= 3 && rest[0] != '0';
     while groups && is_blank(rest.get(length)) && digits(length + 1) == 3 {
         digit_text.extend(&rest[length + 1..length + 4]);
@@ -94,6 +105,56 @@ pub(super) fn read_french_number(rest: &[char]) -> (usize, Option<Vec<String>>) 
         return (length + 2, Some(words));
     }
     with_unit(rest, length, words)
+}
+
+/// Reads a telephone number (*01 23 45 67 89*), a date (*14/07/1789*) or a fraction (*3/4*).
+fn read_parted_number(rest: &[char]) -> Option<(usize, Option<Vec<String>>)> {
+    let digits = rest
+        .iter()
+        .take_while(|letter| letter.is_ascii_digit() || " ./\u{a0}\u{202f}".contains(**letter));
+    let text: String = digits.collect();
+    let text = text.trim_end_matches(|letter: char| !letter.is_ascii_digit());
+    let length = text.chars().count();
+    let parts = |marks: &[char]| {
+        text.split(marks)
+            .map(|part| (part.len(), part.parse::<u64>().ok()))
+            .collect::<Vec<_>>()
+    };
+    let pairs = parts(&[' ', '.', '\u{a0}', '\u{202f}']);
+    if pairs.len() == 5 && text.starts_with('0') && pairs.iter().all(|(width, value)| *width == 2 && value.is_some()) {
+        let pair_words = |(_, value): &(usize, Option<u64>)| {
+            let value = value.unwrap_or_default();
+            let zero = (1..10).contains(&value).then(|| SMALL_NUMBER_WORDS[0].to_owned());
+            zero.into_iter().chain(cardinal(value)).collect::<Vec<_>>()
+        };
+        return Some((length, Some(pairs.iter().flat_map(pair_words).collect())));
+    }
+    let months = FRENCH_SPELLING_RULES.months.iter();
+    match *parts(&['/']) {
+        [(_, Some(day @ 1..=31)), (_, Some(month @ 1..=12)), (2 | 4, Some(year))] => {
+            let mut words = if day == 1 {
+                vec!["premier".to_owned()]
+            } else {
+                cardinal(day)
+            };
+            words.extend(months.cloned().nth(month as usize - 1));
+            words.extend(cardinal(year));
+            Some((length, Some(words)))
+        }
+        [(_, Some(upper @ 1..=20)), (_, Some(lower @ 2..=20))] => {
+            let mut words = cardinal(upper);
+            let part = match lower {
+                2 => "demi".to_owned(),
+                3 => "tiers".to_owned(),
+                4 => "quart".to_owned(),
+                _ => ordinal(cardinal(lower)).pop().unwrap_or_default(),
+            };
+            let plural = if upper > 1 && lower != 3 { "s" } else { "" };
+            words.push(format!("{part}{plural}"));
+            Some((length, Some(words)))
+        }
+        _ => None,
+    }
 }
 
 /// Adds the words of the unit behind a number that is `length` letters long, such as *%*, *€* and *km*.

@@ -8,9 +8,9 @@ use std::sync::LazyLock;
 use regex::Regex;
 use serde::Deserialize;
 
-use super::CueFinding;
 use super::cue_numbers;
 use super::written::{WrittenPart, split_written_text};
+use super::{CueFinding, PronunciationDictionary};
 
 /// Choices of pronunciation that the spelling leaves open.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -63,6 +63,8 @@ pub struct FrenchWord {
     pub doubtful: Vec<usize>,
     /// Whether a hyphen joins it to the word before, as in *dit-elle*.
     pub hyphened: bool,
+    /// Whether the text itself states its phones, as in `fils{f i l}`.
+    pub is_chosen: bool,
 }
 
 impl FrenchPronunciation {
@@ -79,9 +81,30 @@ const VERB_PRONOUNS: [&str; 18] = [
     "ne", "n'", "se", "s'", "me", "m'", "te", "t'", "le", "la", "les", "l'", "lui", "leur", "y", "en", "nous", "vous",
 ];
 
+impl FrenchWord {
+    /// Returns a word with these phones.
+    pub(super) fn said_word(text: &str, phones: Vec<String>) -> Self {
+        Self {
+            text: text.to_owned(),
+            phones,
+            ..Self::default()
+        }
+    }
+}
+
 /// Returns the pronunciation of French `text`.
 #[must_use]
 pub fn pronounce_french_text(text: &str, options: PronunciationOptions) -> FrenchPronunciation {
+    pronounce_with_dictionary(text, options, None)
+}
+
+/// Returns the pronunciation of French `text`; words of the dictionary are said as it says.
+#[must_use]
+pub fn pronounce_with_dictionary(
+    text: &str,
+    options: PronunciationOptions,
+    dictionary: Option<&PronunciationDictionary>,
+) -> FrenchPronunciation {
     let rules = &*FRENCH_SPELLING_RULES;
     let mut spoken = FrenchPronunciation::default();
     for written in split_written_text(text) {
@@ -91,8 +114,25 @@ pub fn pronounce_french_text(text: &str, options: PronunciationOptions) -> Frenc
                 ..FrenchWord::default()
             }),
             WrittenPart::Word(text, hyphened) => {
-                let word = rules.pronounce_french_word(text, &mut spoken.findings);
+                let listed = dictionary.and_then(|dictionary| dictionary.find_pronunciation(&text));
+                let word = match listed {
+                    Some(phones) => FrenchWord::said_word(&text, phones.to_vec()),
+                    None => rules.pronounce_french_word(text, &mut spoken.findings),
+                };
                 spoken.words.push(FrenchWord { hyphened, ..word });
+            }
+            WrittenPart::Phones(phones, true) if spoken.words.last().is_some_and(|word| !word.text.is_empty()) => {
+                if let Some(word) = spoken.words.last_mut() {
+                    word.is_chosen = true;
+                    (word.phones, word.doubtful) = (phones, Vec::new());
+                }
+            }
+            WrittenPart::Phones(phones, _) => {
+                let word = FrenchWord::said_word(&phones.join(" "), phones);
+                spoken.words.push(FrenchWord {
+                    is_chosen: true,
+                    ..word
+                });
             }
             WrittenPart::Letters(text) => spoken.words.push(rules.spelled(text)),
             WrittenPart::Acronym(text) => spoken.words.push(rules.acronym(text)),
@@ -100,6 +140,7 @@ pub fn pronounce_french_text(text: &str, options: PronunciationOptions) -> Frenc
         }
     }
     rules.follow_subjects(&mut spoken.words);
+    rules.report_two_readings(&mut spoken);
     for at in 1..spoken.words.len() {
         let (before, after) = spoken.words.split_at_mut(at);
         let (earlier, word) = before.split_at_mut(at - 1);
@@ -128,6 +169,7 @@ struct FrenchRuleFile {
     liaison: BTreeMap<String, Vec<String>>,
     linked_endings: BTreeMap<String, Vec<String>>,
     never_linked: BTreeSet<String>,
+    homographs: BTreeMap<String, String>,
     before_vowels: BTreeMap<String, String>,
     aspirated_h: BTreeSet<String>,
     aspirated_stems: Vec<String>,
@@ -137,6 +179,7 @@ struct FrenchRuleFile {
     short_words: BTreeSet<String>,
     beginnings: BTreeSet<String>,
     ending_pairs: BTreeSet<String>,
+    months: Vec<String>,
     units: BTreeMap<String, String>,
     symbols: BTreeMap<char, String>,
     abbreviations: BTreeMap<String, String>,
@@ -162,6 +205,8 @@ pub(super) struct SpellingRules {
     linked_endings: BTreeMap<String, Vec<String>>,
     /// Words with such an ending that are not verbs.
     never_linked: BTreeSet<String>,
+    /// The other pronunciation of words that are said in two ways.
+    homographs: BTreeMap<String, String>,
     /// The pronunciation of adjectives that changes before a vowel, such as *bon* and *premier*.
     before_vowels: BTreeMap<String, String>,
     aspirated_h: BTreeSet<String>,
@@ -179,6 +224,8 @@ pub(super) struct SpellingRules {
     pub(super) beginnings: BTreeSet<String>,
     /// The pairs of consonants with which a word can end.
     pub(super) ending_pairs: BTreeSet<String>,
+    /// The months in their order.
+    pub(super) months: Vec<String>,
     /// Signs and short forms behind a number, and the words that they stand for.
     pub(super) units: BTreeMap<String, String>,
     /// Signs that are said as words anywhere.
@@ -205,6 +252,7 @@ impl SpellingRules {
             liaison: BTreeMap::new(),
             linked_endings: BTreeMap::new(),
             never_linked: BTreeSet::new(),
+            homographs: BTreeMap::new(),
             before_vowels: BTreeMap::new(),
             aspirated_h: BTreeSet::new(),
             aspirated_stems: Vec::new(),
@@ -214,6 +262,7 @@ impl SpellingRules {
             short_words: BTreeSet::new(),
             beginnings: BTreeSet::new(),
             ending_pairs: BTreeSet::new(),
+            months: Vec::new(),
             units: BTreeMap::new(),
             symbols: BTreeMap::new(),
             abbreviations: BTreeMap::new(),
@@ -241,6 +290,7 @@ impl SpellingRules {
         rules.words = file.words;
         rules.linked_endings = file.linked_endings;
         rules.never_linked = file.never_linked;
+        rules.homographs = file.homographs;
         rules.before_vowels = file.before_vowels;
         rules.aspirated_h = file.aspirated_h;
         rules.aspirated_stems = file.aspirated_stems;
@@ -250,6 +300,7 @@ impl SpellingRules {
         rules.short_words = file.short_words;
         rules.beginnings = file.beginnings;
         rules.ending_pairs = file.ending_pairs;
+        rules.months = file.months;
         rules.units = file.units;
         rules.symbols = file.symbols;
         rules.abbreviations = file.abbreviations;
@@ -260,26 +311,18 @@ impl SpellingRules {
         let split = |phones: &str| phones.split_whitespace().map(str::to_owned).collect();
         // *Soeur* and *oeil* are written without a ligature as often as with it.
         let joined = text.replace("oeu", "œu").replace("oeil", "œil");
-        if let Some(phones) = self.words.get(&text).or_else(|| self.words.get(&joined)) {
-            return FrenchWord {
-                phones: split(phones),
-                text,
-                ..FrenchWord::default()
-            };
-        }
-        if let Some(phones) = text.strip_suffix('\'').and_then(|rest| self.elided.get(rest)) {
-            return FrenchWord {
-                phones: split(phones),
-                text,
-                ..FrenchWord::default()
-            };
+        // The plural of a word sounds like the word, unless it has a pronunciation of its own.
+        let singular = joined.strip_suffix('s').filter(|stem| stem.chars().count() > 2);
+        let listed = self.words.get(&text).or_else(|| self.words.get(&joined));
+        let listed = listed.or_else(|| self.words.get(singular?));
+        let elided = || text.strip_suffix('\'').and_then(|rest| self.elided.get(rest));
+        if let Some(phones) = listed.or_else(elided) {
+            return FrenchWord::said_word(&text, split(phones));
         }
         let phones = self.apply_spelling_rules(&joined, findings);
         FrenchWord {
             doubtful: doubtful(&phones),
-            phones,
-            text,
-            hyphened: false,
+            ..FrenchWord::said_word(&text, phones)
         }
     }
 
@@ -352,7 +395,8 @@ impl SpellingRules {
             }
         }
         // Few words sound their final r, such as *mer* and *hiver*; the rules give all others the ending of verbs.
-        if word.ends_with("er") && self.er_is_said.contains(word) {
+        let singular = word.strip_suffix('s').unwrap_or(word);
+        if singular.ends_with("er") && [word, singular].iter().any(|form| self.er_is_said.contains(*form)) {
             phones.pop();
             phones.extend(["E".to_owned(), "R".to_owned()]);
         }
@@ -397,9 +441,35 @@ impl SpellingRules {
         }
     }
 
+    /// Reports words that are said in two ways, each once, unless the text states their phones.
+    fn report_two_readings(&self, spoken: &mut FrenchPronunciation) {
+        let mut reported = BTreeSet::new();
+        for word in spoken.words.iter().filter(|word| !word.is_chosen) {
+            let Some(listed) = self.homographs.get(&word.text) else {
+                continue;
+            };
+            let said = word.phones.join(" ");
+            // The verb after its subject is said as the list says; then the noun is the other reading.
+            let other = match *listed == said {
+                true => self.words.get(&word.text).cloned(),
+                false => Some(listed.clone()),
+            };
+            if let Some(other) = other.filter(|other| *other != said)
+                && reported.insert(&word.text)
+            {
+                spoken.findings.push(CueFinding::TwoReadings {
+                    word: word.text.clone(),
+                    choice: format!("{}{{{other}}}", word.text),
+                    said,
+                    other,
+                });
+            }
+        }
+    }
+
     /// Adds to a word the sound that the next word requires: a linking consonant, or a schwa.
     fn join_next_word(&self, word: &mut FrenchWord, next: &FrenchWord, options: PronunciationOptions) {
-        if next.text.is_empty() || word.text.is_empty() {
+        if next.text.is_empty() || word.text.is_empty() || word.is_chosen {
             return;
         }
         if self.begins_with_vowel(next) {
@@ -455,6 +525,9 @@ impl SpellingRules {
             match next.text.as_str() {
                 "il" | "elle" | "on" | "ils" | "elles" if ends(&['t', 'd']) => return Some("t"),
                 "y" | "en" if ends(&['s', 'z']) => return Some("z"),
+                // *Arcs-en-ciel* and *pieds-à-terre* do not link; *États-Unis*, *Champs-Élysées* and *vis-à-vis* do.
+                "en" | "et" | "à" | "a" | "au" if text != "vis" => {}
+                _ if ends(&['s', 'x']) => return Some("z"),
                 _ => {}
             }
         }

@@ -9,6 +9,7 @@
 //! do not.
 
 mod cue_code;
+mod cue_dictionary;
 mod cue_names;
 mod cue_numbers;
 mod espeak;
@@ -18,9 +19,10 @@ mod tests;
 mod utterance;
 mod written;
 
+pub use cue_dictionary::{DictionaryError, PronunciationDictionary};
 pub use cue_names::{gloss_cue_key, key_of_label, of_gloss, placement_number, placement_of_number, sppas_key_labels};
 pub use espeak::of_espeak;
-pub use utterance::{CuedUtterance, UtteranceError, UtteranceReading};
+pub use utterance::{CuedUtterance, TimedText, UtteranceError, UtteranceReading};
 
 pub use cue_code::{
     CueCode, CuePlacement, CueShape, CueVariant, PhoneAlphabet, UnknownVariant, all_cue_codes, find_cue_code,
@@ -103,6 +105,24 @@ pub enum CueFinding {
     Unchecked {
         /// The part and the remedy.
         caution: String,
+    },
+    /// A word that is said in two ways, which spelling does not distinguish.
+    #[error("{word:?} is said {said}, or {other}: to choose, write {choice}")]
+    TwoReadings {
+        /// The word.
+        word: String,
+        /// The phones that were taken.
+        said: String,
+        /// The other phones.
+        other: String,
+        /// The word with its other phones, as a text has them.
+        choice: String,
+    },
+    /// A word that is in no dictionary, of a language without rules of spelling.
+    #[error("the word {word:?} is not in the dictionary; it was left out")]
+    NotInDictionary {
+        /// The word.
+        word: String,
     },
     /// A number or another sign that the pronunciation rules cannot read.
     #[error("{text:?} was left out; write it in words")]

@@ -230,6 +230,19 @@ fn numbers_are_read_as_their_words() {
         ("9 heures", "neuf heures"),
         ("5 %", "cinq pour cent"),
         ("les 12", "les douze"),
+        ("007", "zéro zéro sept"),
+        (
+            "01 23 45 67 89",
+            "zéro un vingt-trois quarante-cinq soixante-sept quatre-vingt-neuf",
+        ),
+        ("14/07/1789", "quatorze juillet mille sept cent quatre-vingt-neuf"),
+        ("le 1/5/24", "le premier mai vingt-quatre"),
+        ("3/4 et 1/2", "trois quarts et un demi"),
+        ("2/3, 5/8", "deux tiers, cinq huitièmes"),
+        ("Louis XIV", "Louis quatorze"),
+        ("le XVIe siècle", "le seizième siècle"),
+        ("François Ier, tome III", "François premier, tome trois"),
+        ("Le Xe", "le dixième"),
     ] {
         assert_eq!(said(digits, usual), said(words, usual), "{digits}");
     }
@@ -348,6 +361,101 @@ fn words_that_are_not_french_are_reported() {
     let reported: Vec<String> = spoken.findings.iter().map(ToString::to_string).collect();
     assert_eq!(reported[0], "\"½\" was left out; write it in words");
     assert!(reported[1].contains("'ч'"), "{reported:?}");
+}
+
+#[test]
+fn words_of_two_readings_are_reported_once_and_chosen_by_braces_or_dictionary() {
+    let code = find_cue_code("french").expect("a code");
+    let read = |text: &str, dictionary: &str| {
+        let listed = PronunciationDictionary::read_dictionary(dictionary, code).ok();
+        let reading = UtteranceReading {
+            dictionary: listed.map(std::sync::Arc::new),
+            ..UtteranceReading::default()
+        };
+        let read = CuedUtterance::read_cued_utterance(text, &reading).expect("read");
+        let labels: Vec<String> = read.phones.into_iter().map(|phone| phone.label).collect();
+        (labels.join(" "), read.findings)
+    };
+    let (phones, findings) = read("mes fils, mes fils", "");
+    assert_eq!(phones, "m e f i s # m e f i s");
+    let [CueFinding::TwoReadings { choice, .. }] = &findings[..] else {
+        panic!("{findings:?}");
+    };
+    assert_eq!(choice, "fils{f i l}");
+    for (text, dictionary, expected) in [
+        ("mes fils{f i l}", "", "m e f i l"),
+        ("mes fils{fil} et {S@val}", "", "m e f i l e S @ v a l"),
+        ("les {a~.fa~}", "", "l e A~ f A~"),
+        ("les clefs", "clefs\tk l E\nzzz\tk l e", "l e k l E"),
+        ("les amis", "amis;a~mi\n", "l e z A~ m i"),
+        ("L'Été", "été [été] e t e\nété(2) a\n", "l e t e"),
+        (
+            "fils",
+            "1_ortho\t2_phon\t9_freqfilms2\nfils\tfil\t3,5\nfils\tfis\t88,1",
+            "f i s",
+        ),
+        ("chanter", "ortho\tphon\nchanter\tS@te", "S A~ t e"),
+        ("fils", "fils\t0.99\t0.1\t1.0\t1.0\tf i l", "f i l"),
+    ] {
+        assert_eq!(read(text, dictionary).0, expected, "{text}");
+    }
+    for wrong in ["", "fils", "fils\tx q", "{}"] {
+        assert!(
+            PronunciationDictionary::read_dictionary(wrong, code).is_err(),
+            "{wrong}"
+        );
+    }
+    let american = UtteranceReading {
+        code: "english-us".to_owned(),
+        dictionary: PronunciationDictionary::read_dictionary(
+            ";;; CMU\nHELLO  HH AH0 L OW1",
+            find_cue_code("en").expect("a code"),
+        )
+        .ok()
+        .map(std::sync::Arc::new),
+        ..UtteranceReading::default()
+    };
+    let read = CuedUtterance::read_cued_utterance("Hello, world!", &american).expect("read");
+    assert_eq!(read.words[0].0, "hello");
+    assert_eq!(
+        read.findings,
+        [CueFinding::NotInDictionary {
+            word: "world".to_owned()
+        }]
+    );
+}
+
+#[test]
+fn words_with_times_link_and_share_their_time() {
+    let timed = |text: &str, from: i64, to: i64| TimedText {
+        text: text.to_owned(),
+        span: TimeSpan::span_between(
+            chereme_motion::RecordingInstant::from_millis(from),
+            chereme_motion::RecordingInstant::from_millis(to),
+        ),
+    };
+    let texts = [
+        timed("les", 100, 400),
+        timed("enfants", 400, 1000),
+        timed("#", 1000, 1500),
+        timed("c'est\nla_vie.", 1500, 2500),
+    ];
+    let read = CuedUtterance::read_timed_texts(&texts, &UtteranceReading::default()).expect("read");
+    let labels: Vec<&str> = read.phones.iter().map(|phone| phone.label.as_str()).collect();
+    assert_eq!(labels.join(" "), "# l e z A~ f A~ s E l a v i");
+    let ends: Vec<i64> = read
+        .phones
+        .iter()
+        .filter_map(|phone| Some(phone.span?.span_end_instant().instant_millis()))
+        .collect();
+    assert_eq!((ends[3], ends[6], ends[12]), (400, 1000, 2500), "{ends:?}");
+    assert!(ends.is_sorted());
+    let words: Vec<&str> = read.words.iter().map(|word| word.0.as_str()).collect();
+    assert_eq!(words, ["les", "enfants", "c'", "est", "la", "vie"]);
+    assert_eq!(
+        read.keys[0].span.map(|span| span.span_start_instant().instant_millis()),
+        Some(100)
+    );
 }
 
 #[test]

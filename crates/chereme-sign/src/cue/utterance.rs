@@ -3,8 +3,11 @@
 use crate::ErrorRemedy;
 use crate::cue::find_cue_code;
 use chereme_motion::{RecordingInstant, TimeSpan};
+use std::sync::Arc;
 
-use super::{CueCode, CueFinding, HandCueKey, PhoneAlphabet, SpokenPhone, all_cue_codes, espeak, french};
+use super::{
+    CueCode, CueFinding, HandCueKey, PhoneAlphabet, PronunciationDictionary, SpokenPhone, all_cue_codes, espeak, french,
+};
 
 /// The form of an utterance, and the code that cues it.
 #[derive(Debug, Clone)]
@@ -19,6 +22,17 @@ pub struct UtteranceReading {
     pub french: french::PronunciationOptions,
     /// Factor on the usual durations of phones; `None` leaves keys without times.
     pub pace: Option<f64>,
+    /// Pronunciations that go before those of the rules.
+    pub dictionary: Option<Arc<PronunciationDictionary>>,
+}
+
+/// A text with the time in which it is said, such as a subtitle or a word of an alignment.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct TimedText {
+    /// The text.
+    pub text: String,
+    /// Its time.
+    pub span: TimeSpan,
 }
 
 impl Default for UtteranceReading {
@@ -29,6 +43,7 @@ impl Default for UtteranceReading {
             variants: Vec::new(),
             french: french::PronunciationOptions::default(),
             pace: None,
+            dictionary: None,
         }
     }
 }
@@ -94,7 +109,7 @@ impl UtteranceError {
             Self::Long(_) => "give at most 1 MiB at once".to_owned(),
             Self::NoSpelling(_) => {
                 return ErrorRemedy::command_remedy(
-                    "give phones: --phones sampa, ipa or mfa; or --espeak, if espeak-ng is installed",
+                    "give phones: --phones sampa, ipa or mfa; or the words in a --dictionary; or --espeak, if espeak-ng is installed",
                 );
             }
             Self::Pace(_) => "a pace from 0.1 to 10; 1.6 is usual for people who cue".to_owned(),
@@ -111,19 +126,109 @@ impl UtteranceError {
 const MAX_UTTERANCE_BYTES: usize = 1 << 20;
 /// The longest plausible phone, in milliseconds.
 const LONGEST_MS: f64 = 60_000.0;
+/// A shorter gap between texts is a rounding error, not a pause.
+const PAUSE_MICROS: i64 = 10_000;
 /// The duration of a sound that the table lacks, in milliseconds.
 const USUAL_MS: f64 = 100.0;
 
+impl UtteranceReading {
+    /// Returns the code with its variants.
+    ///
+    /// # Errors
+    /// [`UtteranceError`] if there is no such code or variant.
+    pub fn reading_code(&self) -> Result<CueCode, UtteranceError> {
+        let cue_code = find_cue_code(&self.code).ok_or_else(|| UtteranceError::NoCode(self.code.clone()))?;
+        let variants: Vec<&str> = self.variants.iter().map(String::as_str).collect();
+        Ok(cue_code.with_variants(&variants)?)
+    }
+
+    /// Returns the pronunciation of a text: French by the rules, other languages by the dictionary alone.
+    fn pronounce_text(&self, text: &str, code: &CueCode) -> Result<french::FrenchPronunciation, UtteranceError> {
+        match self.dictionary.as_deref() {
+            dictionary if code.language == "fr" => Ok(french::pronounce_with_dictionary(text, self.french, dictionary)),
+            Some(dictionary) => Ok(pronounce_listed_words(text, dictionary)),
+            None => Err(UtteranceError::NoSpelling(code.id.clone())),
+        }
+    }
+}
+
+/// Returns the pronunciation of a text by a dictionary alone.
+fn pronounce_listed_words(text: &str, dictionary: &PronunciationDictionary) -> french::FrenchPronunciation {
+    let mut spoken = french::FrenchPronunciation::default();
+    let plain = text.to_lowercase().replace('\u{2019}', "'");
+    for piece in plain.split_inclusive(|c: char| !c.is_alphanumeric() && c != '\'') {
+        let word = piece.trim_matches(|c: char| !c.is_alphanumeric());
+        let pause = piece.ends_with(['.', ',', ';', ':', '!', '?', '\n']);
+        match dictionary.find_pronunciation(word) {
+            Some(phones) => spoken.words.push(french::FrenchWord::said_word(word, phones.to_vec())),
+            None if word.is_empty() => {}
+            None => spoken
+                .findings
+                .push(CueFinding::NotInDictionary { word: word.to_owned() }),
+        }
+        if pause {
+            spoken
+                .words
+                .push(french::FrenchWord::said_word("", vec!["#".to_owned()]));
+        }
+    }
+    spoken
+}
+
 impl CuedUtterance {
+    /// Reads texts that have times. Those that follow each other without a pause are pronounced together, so that words
+    /// link; the phones of a text share its time by their usual durations.
+    ///
+    /// # Errors
+    /// [`UtteranceError`] if the code or a variant is wrong, or the code has no rules of spelling.
+    pub fn read_timed_texts(texts: &[TimedText], reading: &UtteranceReading) -> Result<Self, UtteranceError> {
+        let code = reading.reading_code()?;
+        let (mut words, mut findings, mut doubtful) = (Vec::new(), Vec::new(), Vec::new());
+        let mut phones: Vec<SpokenPhone> = Vec::new();
+        let mut last_end = RecordingInstant::RECORDING_START;
+        let mut said = texts.to_vec();
+        said.retain(|timed| !code.is_pause(timed.text.trim()));
+        let pause_micros =
+            |end: RecordingInstant, span: TimeSpan| span.span_start_instant().instant_micros() - end.instant_micros();
+        let follows =
+            |one: &TimedText, next: &TimedText| pause_micros(one.span.span_end_instant(), next.span) <= PAUSE_MICROS;
+        for group in said.chunk_by(follows) {
+            for (timed, spoken) in group.iter().zip(reading.pronounce_group(group, &code, &mut findings)?) {
+                let span = timed.span;
+                if pause_micros(last_end, span) > PAUSE_MICROS {
+                    phones.push(SpokenPhone {
+                        label: "#".to_owned(),
+                        span: Some(TimeSpan::span_between(last_end, span.span_start_instant())),
+                    });
+                }
+                last_end = last_end.max(span.span_end_instant());
+                let begin = phones.len();
+                for word in &spoken {
+                    let before: usize = phones.len();
+                    doubtful.extend(word.doubtful.iter().map(|at| at + before));
+                    phones.extend(word.phones.iter().map(|phone| SpokenPhone::new(phone.clone())));
+                }
+                share_time(&mut phones[begin..], span, &code);
+                words.extend(spoken.into_iter().map(|word| (word.text, word.phones)));
+            }
+        }
+        let mut read = Self::of_phones(code, phones, PhoneAlphabet::Sampa);
+        findings.append(&mut read.findings);
+        read.findings = findings;
+        read.words = words;
+        for key in &mut read.keys {
+            mark_doubt(key, &doubtful, &read.code);
+        }
+        Ok(read)
+    }
+
     /// Reads text, or phones, separated by blanks or written together; `a=120` is a phone of 120 ms.
     ///
     /// # Errors
     /// [`UtteranceError`] if the code, a variant, the pace or a duration is wrong, the input is larger than
     /// a MiB, or text is given for a code without rules of spelling.
     pub fn read_cued_utterance(input: &str, reading: &UtteranceReading) -> Result<Self, UtteranceError> {
-        let cue_code = find_cue_code(&reading.code).ok_or_else(|| UtteranceError::NoCode(reading.code.clone()))?;
-        let variants: Vec<&str> = reading.variants.iter().map(String::as_str).collect();
-        let code = cue_code.with_variants(&variants)?;
+        let code = reading.reading_code()?;
         if input.len() > MAX_UTTERANCE_BYTES {
             return Err(UtteranceError::Long(input.len()));
         }
@@ -141,8 +246,8 @@ impl CuedUtterance {
                 }
                 alphabet
             }
-            None if code.language == "fr" => {
-                let spoken = french::pronounce_french_text(input, reading.french);
+            None => {
+                let spoken = reading.pronounce_text(input, &code)?;
                 findings.extend(spoken.findings);
                 for word in spoken.words {
                     doubtful.extend(word.doubtful.iter().map(|at| at + given.len()));
@@ -151,7 +256,6 @@ impl CuedUtterance {
                 }
                 PhoneAlphabet::Sampa
             }
-            None => return Err(UtteranceError::NoSpelling(code.id)),
         };
         let phones = assign_phone_times(given, &code, alphabet, reading.pace)?;
         let mut read = Self::of_phones(code, phones, alphabet);
@@ -205,6 +309,60 @@ impl CuedUtterance {
             last_end = Some(span.span_end_instant());
         }
         out.join(" ")
+    }
+}
+
+impl UtteranceReading {
+    /// Returns the words of each text of a group that is said without a pause, without pauses at the ends of texts.
+    fn pronounce_group(
+        &self,
+        group: &[TimedText],
+        code: &CueCode,
+        findings: &mut Vec<CueFinding>,
+    ) -> Result<Vec<Vec<french::FrenchWord>>, UtteranceError> {
+        // A new line within a subtitle, and the joint of a compound of SPPAS, are no pauses.
+        let plain = |timed: &TimedText| timed.text.replace(['\n', '_'], " ");
+        let texts: Vec<String> = group.iter().map(plain).collect();
+        let mut apart = Vec::new();
+        for text in &texts {
+            apart.push(self.pronounce_text(text, code)?);
+        }
+        let mut together = self.pronounce_text(&texts.join(" "), code)?;
+        let word_count: usize = apart.iter().map(|spoken| spoken.words.len()).sum();
+        // Parts of a number that stand in several texts become other words together.
+        let is_split = together.words.len() == word_count;
+        let mut spoken_words = Vec::new();
+        for spoken in apart {
+            let mut words = match is_split {
+                true => together.words.drain(..spoken.words.len()).collect(),
+                false => spoken.words,
+            };
+            if !is_split {
+                findings.extend(spoken.findings);
+            }
+            while words.last().is_some_and(|word| word.text.is_empty()) {
+                words.pop();
+            }
+            spoken_words.push(words);
+        }
+        if is_split {
+            findings.append(&mut together.findings);
+        }
+        Ok(spoken_words)
+    }
+}
+
+/// Gives phones a share of a span each, by their usual durations.
+fn share_time(phones: &mut [SpokenPhone], span: TimeSpan, code: &CueCode) {
+    let usual = |phone: &SpokenPhone| code.durations_ms.get(&phone.label).copied().unwrap_or(USUAL_MS);
+    let total: f64 = phones.iter().map(usual).sum();
+    let begin = span.span_start_instant();
+    let (mut passed, mut from) = (0.0, begin);
+    for phone in phones {
+        passed += usual(phone);
+        let to = begin.shifted_instant((span.span_micros() as f64 * passed / total).round() as i64);
+        phone.span = Some(TimeSpan::span_between(from, to));
+        from = to;
     }
 }
 

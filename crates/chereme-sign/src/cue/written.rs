@@ -1,7 +1,9 @@
 //! French text divided into words, short forms, numbers and pauses.
 
+use super::cue_dictionary::sampa_phones;
 use super::cue_numbers;
 use super::french::FRENCH_SPELLING_RULES;
+use super::{PhoneAlphabet, find_cue_code};
 
 /// A part of a text.
 #[derive(Debug, PartialEq, Eq)]
@@ -12,6 +14,8 @@ pub(super) enum WrittenPart {
     Letters(String),
     /// A word in capitals with a pronunciation of its own, in lower case.
     Acronym(String),
+    /// Phones in SAMPA that the text states (`{f i l}`), and whether they are those of the word right before them.
+    Phones(Vec<String>, bool),
     Pause,
     /// A number or a sign that is not read.
     Other(String),
@@ -28,7 +32,14 @@ pub(super) fn split_written_text(text: &str) -> Vec<WrittenPart> {
     let (mut at, mut hyphen) = (0, false);
     while let Some(&letter) = letters.get(at) {
         let rest = &letters[at..];
-        if letter.is_numeric() {
+        if let Some((length, phones)) = stated_phones(rest) {
+            let is_of_word = at > 0 && letters[at - 1].is_alphanumeric();
+            parts.push(WrittenPart::Phones(phones, is_of_word));
+            at += length;
+        } else if let Some((length, words)) = roman_number(rest).filter(|_| starts_word(&letters, at)) {
+            parts.extend(words.into_iter().map(|word| WrittenPart::Word(word, false)));
+            at += length;
+        } else if letter.is_numeric() {
             let (length, words) = cue_numbers::read_french_number(rest);
             match words {
                 Some(words) => parts.extend(words.into_iter().map(|word| WrittenPart::Word(word, false))),
@@ -165,6 +176,78 @@ fn dotted(rest: &[char]) -> Option<(usize, String)> {
     let capitals: String = capitals.map(|pair| pair[0]).collect();
     let count = capitals.chars().count();
     (count > 1).then_some((2 * count, capitals))
+}
+
+/// Returns phones in braces, in SAMPA or IPA, apart or together, and their length in the text.
+fn stated_phones(rest: &[char]) -> Option<(usize, Vec<String>)> {
+    if rest.first() != Some(&'{') {
+        return None;
+    }
+    let length = rest.iter().position(|letter| *letter == '}')?;
+    let inner: String = rest[1..length].iter().collect();
+    let labels: Vec<&str> = inner.split_whitespace().collect();
+    let code = find_cue_code("french")?;
+    let alphabets = [PhoneAlphabet::Sampa, PhoneAlphabet::Ipa];
+    let phones = alphabets
+        .into_iter()
+        .find_map(|alphabet| sampa_phones(&labels, code, alphabet))?;
+    Some((length + 1, phones))
+}
+
+/// Returns a Roman number in capitals, its words and its length: *Louis XIV*, *XVIe*, *Ier*. Other letters than I, V and X
+/// count only before the ending of an ordinal.
+fn roman_number(rest: &[char]) -> Option<(usize, Vec<String>)> {
+    const ROMAN_SIGNS: [(&str, u64); 13] = [
+        ("M", 1000),
+        ("CM", 900),
+        ("D", 500),
+        ("CD", 400),
+        ("C", 100),
+        ("XC", 90),
+        ("L", 50),
+        ("XL", 40),
+        ("X", 10),
+        ("IX", 9),
+        ("V", 5),
+        ("IV", 4),
+        ("I", 1),
+    ];
+    let run: String = rest.iter().take_while(|letter| "IVXLCDM".contains(**letter)).collect();
+    let (mut left, mut value) = (run.as_str(), 0);
+    for (sign, size) in ROMAN_SIGNS {
+        // A sign stands three times at most, and those of 4, 5 and 9 once.
+        let most = if sign.len() == 1 && !["D", "L", "V"].contains(&sign) {
+            3
+        } else {
+            1
+        };
+        for _ in 0..most {
+            let Some(after) = left.strip_prefix(sign) else { break };
+            (left, value) = (after, value + size);
+        }
+    }
+    let ending: String = rest[run.len()..]
+        .iter()
+        .take_while(|letter| letter.is_alphanumeric())
+        .collect();
+    let is_small = run.chars().all(|letter| "IVX".contains(letter));
+    let is_ordinal = match ending.as_str() {
+        "e" | "ème" | "es" => value > 1,
+        "er" | "re" | "ère" => value == 1,
+        _ => false,
+    };
+    // *Le* and *Des* are no numbers, and one letter alone is a letter.
+    let is_number = match run.len() {
+        1 => is_small && is_ordinal,
+        _ => is_ordinal || (is_small && ending.is_empty()),
+    };
+    if run.is_empty() || !left.is_empty() || !is_number {
+        return None;
+    }
+    // The digits with the same ending are read as numbers are.
+    let digits: Vec<char> = format!("{value}{}", ending.trim_end_matches('s')).chars().collect();
+    let (_, words) = cue_numbers::read_french_number(&digits);
+    Some((run.len() + ending.chars().count(), words?))
 }
 
 /// Returns the words that a short form stands for, and whether the point behind it belongs to it.

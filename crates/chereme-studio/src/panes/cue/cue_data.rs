@@ -65,6 +65,7 @@ impl CueChoices {
                 variants: Vec::new(),
                 french: self.french_phone_options(),
                 pace: Some(self.pace),
+                dictionary: None,
             },
             signer: None,
             phase: self.rule,
