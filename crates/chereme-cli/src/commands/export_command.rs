@@ -13,12 +13,13 @@ use crate::streams;
 /// Export movement, annotations, tables, or the whole enriched database
 ///
 /// The extension of --to determines the format: .bvh (movement of a recording or token), .glb (the same as glTF, for
-/// Blender and the web, with the annotations), .vrma (movement for avatars), .c3d, .trc or .markers.csv (markers), .eaf
-/// or .TextGrid (a recording's tiers, for ELAN or Praat), .elan.txt (the same as ELAN's tab-delimited text), .srt or
-/// .vtt (its translations or glosses as subtitles, one language a file; tier:12 names one), .csv or .tsv (tokens with
-/// all components), .curves.csv (the strength of each non-manual, frame by frame), .sigml (notated signs as gestural
-/// SiGML), .hsigml (the same as HamNoSys's symbols), .hns or .txt (the same as HamNoSys text, one sign on each line),
-/// and, if the program was built with `--features parquet`, .parquet (tokens for pandas, polars and DuckDB),
+/// Blender and the web, with the annotations), .vrma (movement for avatars), .c3d, .trc or .markers.csv (markers),
+/// .eaf, .TextGrid or .xra (a recording's tiers, for ELAN, Praat or SPPAS), .elan.txt (the same as ELAN's tab-delimited
+/// text), .srt or .vtt (its translations or glosses as subtitles, one language a file; tier:12 names one), .csv or .tsv
+/// (tokens with all components), .curves.csv (the strength of each non-manual, frame by frame), .livelink.csv (a
+/// captured face with its timecodes, as Live Link Face writes it for Unreal), .sigml (notated signs as gestural SiGML),
+/// .hsigml (the same as HamNoSys's symbols), .hns or .txt (the same as HamNoSys text, one sign on each line), and, if
+/// the program was built with `--features parquet`, .parquet (tokens for pandas, polars and DuckDB),
 /// .components.parquet, .annotations.parquet and .frames.parquet (a row for each value, each annotation, or each joint
 /// in each frame). A name without an extension is a folder: with --format it gets a file of that format for each
 /// recording or token that has something for it. Without --format `all` writes into it the database, a data dictionary

@@ -2,7 +2,7 @@
 
 use chereme_compose::{FACE_NUMBER_PREFIX, GeneratedCurve};
 use chereme_formats::faces::{DerivedFaceView, FaceMeasures, FaceMesh, FaceSystem};
-use chereme_motion::{FacePosture, FrameTimes, RecordingInstant, TimeSpan};
+use chereme_motion::{CurveTrack, FacePosture, FrameTimes, RecordingInstant, TimeSpan};
 use rusqlite::Connection;
 
 use super::face_fits::CorpusFits;
@@ -66,26 +66,9 @@ pub(crate) fn captured_with(
     span: Option<TimeSpan>,
     fits: &CorpusFits,
 ) -> CorpusResult<Option<CapturedFace>> {
-    let all = stored_tracks::load_track_rows(connection, recording)?;
-    for row in &all {
-        if row.kind != TrackKind::Curves || row.name == NONMANUALS_TRACK_NAME {
-            continue;
-        }
-        let channels = stored_tracks::load_channel_rows(connection, row.id)?;
-        let names = channels.iter().map(|channel| channel.name.as_str());
-        // Channels of expressions, such as joy, do not give single numbers of a face.
-        let Some(system) = FaceSystem::of_names(names).filter(|system| !system.expressions) else {
-            continue;
-        };
-        let mut row = row.clone();
-        let curves = track::track_read::read_track_curves(connection, &row, span)?;
-        if let (Some(span), Some(rate)) = (span, row.rate) {
-            // In a part at an even rate, times count from its first frame.
-            let count = usize::try_from(row.frames.unwrap_or_default()).unwrap_or(usize::MAX);
-            let skipped = FrameTimes::Even(rate).frames_in(span.shifted_span(-row.offset_us), count);
-            let moved = rate.frame_start_instant(skipped.start).instant_micros();
-            row.offset_us = row.offset_us.saturating_add(moved);
-        }
+    // Channels of expressions, such as joy, do not give single numbers of a face.
+    if let Some(channels) = load_face_channels(connection, recording, span, |system| !system.expressions)? {
+        let FaceChannels { row, system, curves } = channels;
         let mut view = system.derive_face_view(&curves);
         let fitted = fits.apply_recording_fit(recording, &mut view);
         return Ok(Some(CapturedFace {
@@ -98,12 +81,51 @@ pub(crate) fn captured_with(
         }));
     }
     // Channels of a face system are closer to what was measured than numbers derived from points.
-    for row in all {
+    for row in stored_tracks::load_track_rows(connection, recording)? {
         if row.kind == TrackKind::Markers
             && let Some(found) = of_points(connection, recording, row, fits)?
         {
             return Ok(Some(found));
         }
+    }
+    Ok(None)
+}
+
+/// The channels of a captured face in the frames of a span.
+pub(crate) struct FaceChannels {
+    /// The track; its offset and its time of day are those of the time 0 of the curves.
+    pub(crate) row: TrackRow,
+    pub(crate) system: &'static FaceSystem,
+    pub(crate) curves: CurveTrack,
+}
+
+/// Returns the channels of the first track of curves in a face system that is wanted, all of them or those in the frames
+/// within a span of the recording's clock.
+pub(crate) fn load_face_channels(
+    connection: &Connection,
+    recording: i64,
+    span: Option<TimeSpan>,
+    is_wanted: fn(&FaceSystem) -> bool,
+) -> CorpusResult<Option<FaceChannels>> {
+    for mut row in stored_tracks::load_track_rows(connection, recording)? {
+        if row.kind != TrackKind::Curves || row.name == NONMANUALS_TRACK_NAME {
+            continue;
+        }
+        let channels = stored_tracks::load_channel_rows(connection, row.id)?;
+        let names = channels.iter().map(|channel| channel.name.as_str());
+        let Some(system) = FaceSystem::of_names(names).filter(|system| is_wanted(system)) else {
+            continue;
+        };
+        let curves = track::track_read::read_track_curves(connection, &row, span)?;
+        if let (Some(span), Some(rate)) = (span, row.rate) {
+            // In a part at an even rate, times count from its first frame.
+            let count = usize::try_from(row.frames.unwrap_or_default()).unwrap_or(usize::MAX);
+            let skipped = FrameTimes::Even(rate).frames_in(span.shifted_span(-row.offset_us), count);
+            let moved = rate.frame_start_instant(skipped.start).instant_micros();
+            row.offset_us = row.offset_us.saturating_add(moved);
+            row.clock_us = row.clock_us.map(|clock| clock.saturating_add(moved));
+        }
+        return Ok(Some(FaceChannels { row, system, curves }));
     }
     Ok(None)
 }

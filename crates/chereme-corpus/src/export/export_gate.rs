@@ -225,7 +225,7 @@ impl SingleFileFormat {
     /// Returns what a file of the format shows of people.
     fn shown_kinds(self) -> &'static [ConsentKind] {
         match self {
-            Self::Bvh | Self::Points(_) | Self::Markers(_) => &[ConsentKind::Movement],
+            Self::Bvh | Self::Points(_) | Self::Markers(_) | Self::LiveLink => &[ConsentKind::Movement],
             Self::Glb | Self::Vrma | Self::Curves(_) | Self::Parquet(LongTable::Frames) => {
                 &[ConsentKind::Movement, ConsentKind::Annotation]
             }
@@ -234,6 +234,7 @@ impl SingleFileFormat {
             | Self::Json
             | Self::Parquet(_)
             | Self::TextGrid
+            | Self::Xra
             | Self::ElanTable
             | Self::Subtitles(_)
             | Self::Notation(_) => &[ConsentKind::Annotation],

@@ -3,15 +3,18 @@
 use std::io::Write;
 use std::ops::Range;
 
+use chereme_formats::curves::write_live_link_csv;
+use chereme_formats::faces::FaceSystem;
 use chereme_formats::gltf::vrma::{self, AvatarFace, ExpressionTrack};
 use chereme_formats::table::annotations;
-use chereme_formats::{TooFar, c3d, gltf, textgrid, trc};
+use chereme_formats::{TooFar, c3d, gltf, textgrid, trc, xra};
 use chereme_motion::{Clip, MarkerSpace, RecordingInstant, TimeSpan};
 use chereme_sign::ErrorRemedy;
 use rusqlite::Connection;
 
 use super::ExportGate;
 use crate::address::RecordingStretch;
+use crate::curves::face_captured;
 use crate::db::stored_recordings::RecordingRow;
 use crate::db::{stored_tiers, stored_tracks};
 use crate::error::{CorpusError, CorpusResult};
@@ -223,6 +226,40 @@ pub(super) fn write_number_table(
     track::track_table::write_track_table(&track, delimiter, out)
 }
 
+/// Writes the captured face of a stretch as Live Link Face does, with the time of day of its frames.
+///
+/// # Errors
+/// Fails if the recording has no face in ARKit's shapes, or writing fails.
+pub(super) fn write_live_link_file(
+    connection: &Connection,
+    stretch: &RecordingStretch,
+    out: &mut dyn Write,
+    notes: &mut Vec<String>,
+) -> CorpusResult<()> {
+    let span = stretch.token.as_ref().map(|_| stretch.span);
+    let has_shapes = FaceSystem::has_live_link_shapes;
+    let channels = face_captured::load_face_channels(connection, stretch.recording.id, span, has_shapes)?;
+    let written = channels.and_then(|channels| {
+        let time_of_day = channels.row.clock_us;
+        let begin = RecordingInstant::from_micros(time_of_day.unwrap_or(channels.row.offset_us));
+        let (text, findings) = write_live_link_csv(&channels.curves, begin)?;
+        Some((text, findings, time_of_day.is_some()))
+    });
+    let Some((text, findings, has_time_of_day)) = written else {
+        let name = &stretch.recording.name;
+        return Err(CorpusError::from_wrong_message(format!(
+            "the recording {name:?} has no face in the shapes of ARKit, which Live Link Face has columns for"
+        ))
+        .with_advice("write .curves.csv, which holds the numbers of any face")
+        .into_lacking_content());
+    };
+    if !has_time_of_day {
+        notes.push("the time of day is not known: timecodes count from the start of the recording".to_owned());
+    }
+    notes.extend(findings.into_iter().map(|finding| finding.message));
+    write_export_bytes(out, text.as_bytes())
+}
+
 /// Reports whether a recording has a track of that kind.
 pub(super) fn has_track_kind(connection: &Connection, recording: i64, kind: TrackKind) -> CorpusResult<bool> {
     Ok(stored_tracks::load_track_rows(connection, recording)?
@@ -313,6 +350,19 @@ pub(super) fn text_grid(
     let (text, findings) = textgrid::write_textgrid(&transcript, textgrid::TextGridForm::Long, end);
     notes.extend(findings.into_iter().map(|finding| finding.message));
     write_export_bytes(out, text.as_bytes())
+}
+
+/// Writes the tiers of a recording as SPPAS reads them.
+///
+/// # Errors
+/// Fails if the rows or files of the recording are damaged, or writing fails.
+pub(super) fn write_xra_file(
+    connection: &Connection,
+    recording: &RecordingRow,
+    out: &mut dyn Write,
+) -> CorpusResult<()> {
+    let transcript = super::export_eaf::tiers_of(connection, recording)?;
+    write_export_bytes(out, xra::write_xra(&transcript, &recording.name).as_bytes())
 }
 
 /// Writes bytes.

@@ -55,6 +55,7 @@ fn a_folder_of_files_has_each_recording_that_holds_something_for_the_format() {
         ("curves.csv", &["c-face.curves.csv"], 3),
         ("srt", &["bol.Translation EN.srt", "bol.Translation FR.srt"], 3),
         ("TextGrid", &["bol.textgrid"], 3),
+        ("xra", &["bol.xra"], 3),
     ] {
         let (report, to) = folder(format);
         let report = report.unwrap_or_else(|error| panic!("{format}: {error}"));
@@ -142,6 +143,44 @@ fn exported_curves_are_read_again_with_their_names_times_and_numbers() {
         let recordings = again.list_rows(ListKind::Recordings, &ListFilter::default());
         assert_eq!(recordings.expect("listed").rows[0]["name"], "take");
     }
+}
+
+#[test]
+fn a_take_of_live_link_goes_back_with_its_times_of_day() {
+    let mut place = Place::new();
+    let mut text = String::from("Timecode,BlendShapeCount,JawOpen,BrowInnerUp,EyeBlinkLeft,HeadYaw\n");
+    for frame in [10, 12, 15, 58, 59] {
+        text += &format!("10:20:30:{frame:02}.250,61,0.{frame}0,1.05,0.0,-0.3\n");
+    }
+    let corpus = place.corpus(&[place.file("take.csv", text.as_bytes())]);
+    let out = place.path("take.livelink.csv");
+    let report = export(&corpus, &address("recording:take"), &out).expect("exported");
+    let said = |words: &str| report.notes.iter().any(|note| note.contains(words));
+    assert!(
+        said("does not have are 0: ") && !said("time of day"),
+        "{:?}",
+        report.notes
+    );
+    let written = std::fs::read_to_string(&out).expect("text");
+    let cells = |line: &str, titles: [&str; 6]| {
+        let header: Vec<&str> = written.lines().next().unwrap_or_default().split(',').collect();
+        let cells: Vec<&str> = line.split(',').collect();
+        titles.map(|title| cells[header.iter().position(|known| *known == title).expect("a column")].to_owned())
+    };
+    let titles = [
+        "Timecode",
+        "BlendShapeCount",
+        "JawOpen",
+        "BrowInnerUp",
+        "EyeBlinkLeft",
+        "HeadYaw",
+    ];
+    for (expected, line) in text.lines().zip(written.lines()) {
+        assert_eq!(cells(line, titles).join(","), expected);
+    }
+    let plain = place.corpus(&[place.file("jaw.csv", b"time,jaw,lip\n0,1,2\n0.1,1,2\n")]);
+    let error = export(&plain, &address("recording:jaw"), &place.path("x.livelink.csv")).expect_err("no shapes");
+    assert!(error.to_string().contains("no face in the shapes of ARKit"), "{error}");
 }
 
 #[test]

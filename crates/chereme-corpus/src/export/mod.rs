@@ -130,6 +130,7 @@ impl Corpus {
     /// |---|---|
     /// | `.csv`, `.tsv` | one row for each token, with its components; or the annotations of a tier |
     /// | `.curves.csv`, `.curves.tsv` | the scalar curves of one recording or token, one row for each frame |
+    /// | `.livelink.csv` | the captured face of one recording or token as Live Link Face writes it |
     /// | `.eaf` | the tiers of one recording, for ELAN |
     /// | `.bvh` | the movement of one recording or token |
     /// | `.glb` | the same as glTF with a skin, visible bones and the annotations, for Blender and the web |
@@ -137,6 +138,7 @@ impl Corpus {
     /// | `.c3d`, `.trc` | the markers of one recording or token |
     /// | `.markers.csv`, `.markers.tsv` | the same as a table of exact numbers, one row for each frame |
     /// | `.TextGrid` | the tiers of one recording, for Praat |
+    /// | `.xra` | the same for SPPAS |
     /// | `.elan.txt` | the same in the form of ELAN's tab-delimited export |
     /// | `.srt`, `.vtt` | the translations or glosses of one recording as subtitles, one language; or a tier |
     /// | `.parquet`, `.components.parquet` | one row for each token, or each value of a token (feature `parquet`) |
@@ -291,6 +293,8 @@ enum SingleFileFormat {
     Table(TableForm),
     /// A table of curves with this separator.
     Curves(u8),
+    /// A captured face for programs that read Live Link Face.
+    LiveLink,
     Eaf,
     Bvh,
     Json,
@@ -302,6 +306,7 @@ enum SingleFileFormat {
     /// Markers as a table with this separator.
     Markers(u8),
     TextGrid,
+    Xra,
     ElanTable,
     Subtitles(Subtitles),
     Notation(export_notation::NotationFileFormat),
@@ -321,6 +326,7 @@ impl SingleFileFormat {
             "c3d" => Some(Self::Points(foreign::MarkerFileFormat::C3d)),
             "trc" => Some(Self::Points(foreign::MarkerFileFormat::Trc)),
             "textgrid" => Some(Self::TextGrid),
+            "xra" => Some(Self::Xra),
             "srt" => Some(Self::Subtitles(Subtitles::Srt)),
             "vtt" => Some(Self::Subtitles(Subtitles::Vtt)),
             "sigml" => Some(Self::Notation(export_notation::NotationFileFormat::Gestural)),
@@ -349,6 +355,7 @@ impl SingleFileFormat {
     fn select_format_variant(self, inner: &str) -> Self {
         match (self, inner) {
             (Self::Table(form), "curves") => Self::Curves(form.delimiter),
+            (Self::Table(form), "livelink") if form.delimiter == b',' => Self::LiveLink,
             (Self::Table(form), "markers") => Self::Markers(form.delimiter),
             (Self::Notation(export_notation::NotationFileFormat::Text), "elan") => Self::ElanTable,
             (Self::Parquet(_), inner) => Self::Parquet(LongTable::from_inner_extension(inner)),
@@ -358,7 +365,10 @@ impl SingleFileFormat {
 
     /// Reports whether the format holds tiers; a token then stands for its recording.
     fn is_of_tiers(self) -> bool {
-        matches!(self, Self::Eaf | Self::TextGrid | Self::ElanTable | Self::Subtitles(_))
+        matches!(
+            self,
+            Self::Eaf | Self::TextGrid | Self::Xra | Self::ElanTable | Self::Subtitles(_)
+        )
     }
 }
 
@@ -421,6 +431,7 @@ fn write_file(
             csv::write_token_csv(connection, &tokens()?, form, out, notes, progress)
         }
         (SingleFileFormat::Curves(delimiter), _) => write_face_curves(connection, &stretch()?, delimiter, out, notes),
+        (SingleFileFormat::LiveLink, _) => foreign::write_live_link_file(connection, &stretch()?, out, notes),
         (SingleFileFormat::Eaf, _) => {
             let stretch = stretch()?;
             if stretch.token.is_some() {
@@ -453,6 +464,9 @@ fn write_file(
         }
         (SingleFileFormat::TextGrid, _) => {
             foreign::text_grid(connection, &with_tiers(connection, stretch()?)?.recording, out, notes)
+        }
+        (SingleFileFormat::Xra, _) => {
+            foreign::write_xra_file(connection, &with_tiers(connection, stretch()?)?.recording, out)
         }
         (SingleFileFormat::Subtitles(form), ExportWhat::Address(CorpusAddress::Tier(tier))) => {
             export_subtitles::write_tier_subtitles(connection, *tier, form, out)
@@ -545,8 +559,8 @@ fn with_tiers(connection: &Connection, stretch: RecordingStretch) -> CorpusResul
 
 fn no_format(to: &Path, message: &str) -> CorpusError {
     CorpusError::from_wrong_message(message).with_error_place(to.display().to_string()).with_advice(
-        "end the name in .csv, .tsv, .curves.csv, .markers.csv, .eaf, .bvh, .glb, .vrma, .c3d, .trc, .parquet, .TextGrid, \
-         .elan.txt, .srt, .vtt, .sigml, .hsigml or .hns, an \
+        "end the name in .csv, .tsv, .curves.csv, .livelink.csv, .markers.csv, .eaf, .bvh, .glb, .vrma, .c3d, .trc, .parquet, .TextGrid, \
+         .xra, .elan.txt, .srt, .vtt, .sigml, .hsigml or .hns, an \
          inventory's in .json; a name without a dot is a folder of everything, or with --format of a file for each \
          recording or token",
     )

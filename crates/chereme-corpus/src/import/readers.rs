@@ -8,7 +8,7 @@ use std::path::Path;
 use chereme_formats::eaf::AnnotationTranscript;
 use chereme_formats::tracks::CapturedTracks;
 use chereme_formats::{
-    ImportFinding, anvil, c3d, eaf as elan_file, exmaralda, pose, signstream, subtitles, textgrid, trc,
+    ImportFinding, anvil, c3d, eaf as elan_file, exmaralda, pose, signstream, subtitles, textgrid, trc, xra,
 };
 use chereme_sign::ErrorRemedy;
 
@@ -227,6 +227,14 @@ pub(super) static FILE_READERS: &[FileReader] = &[
         contents: FileContentUse::Annotations(|bytes| exmaralda::read_exmaralda(bytes).map_err(parse_error_message)),
     },
     FileReader {
+        endings: &["xra"],
+        kind: "xra",
+        holds: ANNOTATIONS_NOUN,
+        looks: always,
+        keeps_inventories: false,
+        contents: FileContentUse::Annotations(|bytes| xra::read_xra(bytes).map_err(parse_error_message)),
+    },
+    FileReader {
         endings: &["xml"],
         kind: "signstream",
         holds: "collections of SignStream",
@@ -419,6 +427,7 @@ mod tests {
             ("a.vtt", true),
             ("a.anvil", true),
             ("A.EXB", true),
+            ("a.xra", true),
             ("a.bvh", false),
             ("a.docx", false),
         ] {

@@ -23,6 +23,9 @@ const EXB: &str = "<basic-transcription><basic-body><common-timeline><tli id=\"a
     <tli id=\"b\" time=\"0.15\"/></common-timeline><tier id=\"t\" category=\"gloss\" type=\"t\">\
     <event start=\"a\" end=\"b\">CHAT</event></tier></basic-body></basic-transcription>";
 
+const XRA: &str = "<Document><Tier id=\"t\" tiername=\"gloss\"><Annotation><Location><Interval><Begin midpoint=\"0.01\"/>\
+    <End midpoint=\"0.15\"/></Interval></Location><Label><Tag>CHAT</Tag></Label></Annotation></Tier></Document>";
+
 const COLLECTION: &str = "<SIGNSTREAM-DATABASE><CODING-SCHEME><FIELD ID=\"1\" NAME=\"main gloss\"/></CODING-SCHEME><UTTERANCES>\
     <UTTERANCE ID=\"1\" S=\"10\" E=\"150\"><SEGMENT PARTICIPANT-ID=\"0\"><TRACK FID=\"1\"><A S=\"0\" E=\"140\">CHAT</A></TRACK>\
     </SEGMENT></UTTERANCE></UTTERANCES></SIGNSTREAM-DATABASE>";
@@ -38,6 +41,7 @@ fn signs_of_other_programs_are_found_with_their_movement() {
     for (name, text, tiers) in [
         ("take.anvil", anvil(&first), 4),
         ("take.exb", EXB.to_owned(), 1),
+        ("take.xra", XRA.to_owned(), 1),
         ("take.xml", COLLECTION.to_owned(), 2),
     ] {
         let desk = Desk::new();
