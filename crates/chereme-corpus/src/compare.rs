@@ -5,7 +5,7 @@ use std::path::Path;
 use chereme_formats::compare::{self, MergeConflict, MergedTranscript, TranscriptDifference};
 use chereme_formats::eaf::{self, AnnotationTranscript, eaf_document_from_transcript, eaf_raw, patch_eaf};
 use chereme_formats::table::annotations;
-use chereme_formats::{subtitles, textgrid};
+use chereme_formats::{ImportFinding, subtitles, textgrid};
 use chereme_sign::ErrorRemedy;
 use serde::Serialize;
 
@@ -43,7 +43,7 @@ pub struct FileMerge {
 
 /// The formats of annotation files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum AnnotationFileFormat {
+pub(crate) enum AnnotationFileFormat {
     Eaf,
     TextGrid,
     Subtitles,
@@ -160,33 +160,43 @@ const TABLE_HEAD: usize = 1 << 14;
 
 /// Reads a document. Its contents determine its format; the ending of its name does if they do not.
 fn read_compared_document(name: &str, bytes: &[u8]) -> CorpusResult<(AnnotationTranscript, AnnotationFileFormat)> {
+    let (transcript, _, format) = read_annotation_document(name, bytes)?;
+    Ok((transcript, format))
+}
+
+/// Reads an annotation file as [`read_compared_document`] does, with what is odd in it.
+pub(crate) fn read_annotation_document(
+    name: &str,
+    bytes: &[u8],
+) -> CorpusResult<(AnnotationTranscript, Vec<ImportFinding>, AnnotationFileFormat)> {
     let head = &bytes[..bytes.len().min(4096)];
     // Files in UTF-16 have a zero in each of these letters.
     let plain: Vec<u8> = head.iter().copied().filter(|byte| *byte != 0).collect();
     let says = |word: &[u8]| plain.windows(word.len()).any(|window| window == word);
     let fault = |error: String| CorpusError::from_wrong_message(error).with_error_place(name);
     if says(b"ooTextFile") || says(b"ooBinaryFile") {
-        let (it, _) = textgrid::read_textgrid_file(bytes).map_err(|error| fault(error.to_string()))?;
-        return Ok((it, AnnotationFileFormat::TextGrid));
+        let (it, odd) = textgrid::read_textgrid_file(bytes).map_err(|error| fault(error.to_string()))?;
+        return Ok((it, odd, AnnotationFileFormat::TextGrid));
     }
     let table = &bytes[..bytes.len().min(TABLE_HEAD)];
     // Text in an XML document may look like a table, so that its mark is looked for first.
     if !says(b"<?xml") && !says(b"<ANNOTATION_DOCUMENT") && annotations::is_export(table) {
-        let (it, _) = annotations::read_elan_table(bytes).map_err(|error| fault(error.to_string()))?;
-        return Ok((it, AnnotationFileFormat::Other));
+        let (it, odd) = annotations::read_elan_table(bytes).map_err(|error| fault(error.to_string()))?;
+        return Ok((it, odd, AnnotationFileFormat::Other));
     }
     if says(b"-->") && !says(b"<?xml") {
-        let (it, _) = subtitles::read_subtitles(bytes).map_err(|error| fault(error.to_string()))?;
-        return Ok((it, AnnotationFileFormat::Subtitles));
+        let (it, odd) = subtitles::read_subtitles(bytes).map_err(|error| fault(error.to_string()))?;
+        return Ok((it, odd, AnnotationFileFormat::Subtitles));
     }
     let by_name = readers::find_transcript_parser(Path::new(name)).filter(|_| !says(b"<ANNOTATION_DOCUMENT"));
     if let Some(read) = by_name {
-        return Ok((read(bytes).map_err(fault)?.0, AnnotationFileFormat::Other));
+        let (it, odd) = read(bytes).map_err(fault)?;
+        return Ok((it, odd, AnnotationFileFormat::Other));
     }
-    let (it, _) = eaf::read_eaf(bytes).map_err(|error| {
+    let (it, odd) = eaf::read_eaf(bytes).map_err(|error| {
         fault(error.to_string()).with_advice(format!("name annotation files: {}", readers::annotation_endings()))
     })?;
-    Ok((it, AnnotationFileFormat::Eaf))
+    Ok((it, odd, AnnotationFileFormat::Eaf))
 }
 
 #[cfg(test)]

@@ -1,16 +1,16 @@
 //! Keys of cued speech from text or phones, without a corpus.
 
+mod cue_sources;
+
 use std::path::Path;
 use std::process::{Command, Stdio};
 
 use chereme_compose::recipe::{CueSettings, RecipeNode};
 use chereme_compose::units::{HandChoice, RecipeFactor};
 use chereme_compose::{PhaseRule, RECIPE_TREE_VERSION};
-use chereme_formats::eaf::eaf_convert::{AnnotationTranscript, TranscriptTier};
-use chereme_formats::{eaf, textgrid};
 use chereme_motion::RecordingInstant;
 use chereme_sign::ErrorRemedy;
-use chereme_sign::cue::{self, CueCode, CuedUtterance, PhoneAlphabet, SpokenPhone, UtteranceError};
+use chereme_sign::cue::{self, CuedUtterance, PhoneAlphabet, UtteranceError};
 use serde::Serialize;
 use serde_json::json;
 
@@ -18,7 +18,11 @@ use crate::Corpus;
 use crate::error::{CorpusError, CorpusResult};
 use crate::recombine::RecombinationResult;
 
+use cue_sources::read_aligned_utterance;
+pub(crate) use cue_sources::{guessed_alphabet, is_phone_tier, with_gaps};
+
 pub use chereme_sign::cue::UtteranceReading as KeysOptions;
+pub use cue_sources::read_pronunciation_dictionary;
 
 /// The keys of an utterance.
 #[derive(Debug, Clone, Serialize)]
@@ -104,25 +108,11 @@ impl CueKeys {
     }
 }
 
-/// The names that aligners give to tiers of phones, folded and without punctuation.
-const PHONE_TIERS: [&str; 7] = [
-    "phones",
-    "phone",
-    "phonalign",
-    "mau",
-    "phonemes",
-    "phoneme",
-    "phonetique",
-];
-/// Shorter gaps between phones are rounding errors, not pauses.
-const SILENCE_MICROS: i64 = 10_000;
-/// The largest file of an alignment.
-const MOST_FILE_BYTES: u64 = 1 << 28;
-
-/// Returns the keys for the phones of an alignment, a TextGrid or an EAF file, with the times of the phones.
+/// Returns the keys for a tier of phones, words or sentences in an annotation file of any kind that is imported, with the
+/// times of the tier; subtitles are such files, too.
 ///
-/// The tier is the named one, otherwise the first whose name aligners use for phones. If the options name no alphabet,
-/// it is the one that contains most of the labels.
+/// The tier is the named one, otherwise the first whose name aligners use for phones, or for words, or the only one.
+/// Phones of words share their time. If the options name no alphabet, it is the one that contains most of the labels.
 ///
 /// # Errors
 /// Fails if the file cannot be read, or has no such tier, or nothing to cue on it.
@@ -133,13 +123,13 @@ pub fn cue_keys_of_file(path: &Path, tier: Option<&str>, options: &KeysOptions) 
     findings.append(&mut keys.findings);
     keys.findings = findings;
     if keys.keys.is_empty() && keys.findings.is_empty() {
-        let text = format!("the tier {name:?} has no phones to cue");
+        let text = format!("the tier {name:?} has nothing to cue");
         return Err(CorpusError::from_wrong_message(text)
             .with_error_place(path.display().to_string())
             .with_advice(ErrorRemedy::command_remedy("name one with --tier")));
     }
     keys.tier = Some(name);
-    keys.alphabet = Some(read.alphabet.alphabet_name());
+    keys.alphabet = Some(read.alphabet.alphabet_name()).filter(|_| keys.words.is_empty());
     Ok(keys)
 }
 
@@ -192,9 +182,16 @@ impl Corpus {
         if read.keys.is_empty() {
             return Err(nothing_to_cue(text));
         }
+        // A recipe holds its text alone: words that the user's dictionary says become their phones.
+        let has_dictionary = options.reading.dictionary.is_some();
+        let phones = has_dictionary.then(|| read.write_sampa_phones());
+        let mut spoken = options.clone();
+        if has_dictionary {
+            spoken.reading.phones = Some(PhoneAlphabet::Sampa);
+        }
         let signer = options.signer.as_deref();
         let on = signer.map(|name| self.body_address(name)).transpose()?;
-        let recipe = cue_recipe(text, options, on);
+        let recipe = cue_recipe(phones.as_deref().unwrap_or(text), &spoken, on);
         match gloss {
             Some(gloss) => self.recombine_recipe(&recipe, gloss),
             None => self.preview_recipe(&recipe),
@@ -310,130 +307,6 @@ pub fn cue_recipe(text: &str, options: &CueOptions, on: Option<String>) -> Strin
         on,
     });
     json!({"version": RECIPE_TREE_VERSION, "make": node}).to_string()
-}
-
-fn read_aligned_utterance(
-    path: &Path,
-    tier: Option<&str>,
-    options: &KeysOptions,
-) -> CorpusResult<(CuedUtterance, String, Vec<String>)> {
-    let file = |source| CorpusError::File {
-        path: path.to_owned(),
-        source,
-    };
-    let size = std::fs::metadata(path).map_err(file)?.len();
-    if size > MOST_FILE_BYTES {
-        return Err(CorpusError::from_wrong_message(format!("the file has {size} bytes"))
-            .with_error_place(path.display().to_string())
-            .with_advice("give a file of at most 256 MiB"));
-    }
-    let bytes = std::fs::read(path).map_err(file)?;
-    let wrong = |error: String| {
-        CorpusError::from_wrong_message(error)
-            .with_error_place(path.display().to_string())
-            .with_advice("give a TextGrid or an EAF file with a tier of phones")
-    };
-    // A byte order mark may stand before the first bracket.
-    let text = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(&bytes);
-    let is_eaf = text.trim_ascii_start().starts_with(b"<");
-    let (transcript, odd) = if is_eaf {
-        eaf::read_eaf(&bytes).map_err(|error| wrong(error.to_string()))?
-    } else {
-        textgrid::read_textgrid_file(&bytes).map_err(|error| wrong(error.to_string()))?
-    };
-    let tier = phone_tier(&transcript, tier).map_err(|error| error.with_error_place(path.display().to_string()))?;
-    let labels = tier.annotations.iter().map(|one| SpokenPhone {
-        label: one.value.trim().to_owned(),
-        span: Some(one.span),
-    });
-    let mut phones: Vec<SpokenPhone> = labels.collect();
-    // Annotations in a file need not be sorted by time.
-    phones.sort_by_key(|phone| phone.span.map(|span| span.span_start_instant()));
-    let cue_code = cue::find_cue_code(&options.code)
-        .ok_or_else(|| utterance_read_error(UtteranceError::NoCode(options.code.clone())))?;
-    let variants: Vec<&str> = options.variants.iter().map(String::as_str).collect();
-    let code = cue_code
-        .with_variants(&variants)
-        .map_err(|error| utterance_read_error(error.into()))?;
-    let alphabet = options.phones.unwrap_or_else(|| guessed_alphabet(&code, &phones));
-    let spaced = with_gaps(phones);
-    let name = tier.name.clone();
-    let findings = odd.iter().map(|finding| finding.message.clone()).collect();
-    Ok((CuedUtterance::of_phones(code, spaced, alphabet), name, findings))
-}
-
-/// Returns the alphabet that contains most of the labels; in a tie SAMPA before IPA before MFA.
-pub(crate) fn guessed_alphabet(code: &CueCode, phones: &[SpokenPhone]) -> PhoneAlphabet {
-    let knows = |alphabet: &PhoneAlphabet| {
-        let labels = phones.iter().map(|phone| &phone.label);
-        labels
-            .filter(|label| code.sampa_symbols(label, *alphabet).is_some())
-            .count()
-    };
-    let rated = PhoneAlphabet::ALL_ALPHABETS
-        .iter()
-        // Of equal ones the last is taken, so the order is turned for the first alphabet to win.
-        .rev()
-        .max_by_key(|alphabet| knows(alphabet));
-    rated.copied().unwrap_or_default()
-}
-
-/// Returns whether a tier's name is one that aligners use for phones.
-pub(crate) fn is_phone_tier(name: &str) -> bool {
-    let folded = chereme_sign::text::fold_text(name);
-    let plain: String = folded.chars().filter(|c| c.is_alphanumeric()).collect();
-    // Many words end in these letters, so only the whole name counts.
-    let fits = |known: &&str| plain == **known || plain.ends_with(*known) && *known != "mau";
-    PHONE_TIERS.iter().any(fits)
-}
-
-/// Returns the wanted tier, or the first one whose name aligners use for phones.
-fn phone_tier<'a>(transcript: &'a AnnotationTranscript, wanted: Option<&str>) -> CorpusResult<&'a TranscriptTier> {
-    let plain = |name: &str| -> String {
-        let folded = chereme_sign::text::fold_text(name);
-        folded.chars().filter(|c| c.is_alphanumeric()).collect()
-    };
-    let names = || {
-        let names: Vec<&str> = transcript.tiers.iter().map(|tier| tier.name.as_str()).collect();
-        names.join(", ")
-    };
-    let chosen_tier = match wanted {
-        Some(wanted) => transcript.tiers.iter().find(|tier| tier.name == wanted),
-        None => PHONE_TIERS.iter().find_map(|known| {
-            transcript.tiers.iter().find(|tier| {
-                let name = plain(&tier.name);
-                name == *known || name.ends_with(known) && *known != "mau"
-            })
-        }),
-    };
-    chosen_tier.ok_or_else(|| match wanted {
-        Some(wanted) => CorpusError::from_wrong_message(format!("there is no tier {wanted:?}; there are: {}", names()))
-            .with_advice("name one of them"),
-        None => CorpusError::from_wrong_message(format!("no tier is called like phones; there are: {}", names()))
-            .with_advice(ErrorRemedy::command_remedy("name one with --tier")),
-    })
-}
-
-/// Inserts a pause into every silence between two phones.
-pub(crate) fn with_gaps(phones: Vec<SpokenPhone>) -> Vec<SpokenPhone> {
-    let mut spaced: Vec<SpokenPhone> = Vec::with_capacity(phones.len());
-    let mut last_end = RecordingInstant::RECORDING_START;
-    for phone in phones {
-        let Some(span) = phone.span else { continue };
-        if span.span_start_instant().instant_micros() - last_end.instant_micros() > SILENCE_MICROS {
-            spaced.push(SpokenPhone {
-                label: "#".to_owned(),
-                span: Some(chereme_motion::TimeSpan::span_between(
-                    last_end,
-                    span.span_start_instant(),
-                )),
-            });
-        }
-        // Phones may overlap, and the pause begins after the last one that ends.
-        last_end = last_end.max(span.span_end_instant());
-        spaced.push(phone);
-    }
-    spaced
 }
 
 fn cue_key_from_analysis(key: &cue::HandCueKey) -> CueKey {

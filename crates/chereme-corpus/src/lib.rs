@@ -126,7 +126,7 @@ pub use contents::{
 pub use context::TokenNeighbours;
 pub use cue::{
     CueKey, CueKeys, CueOptions, KeysOptions, SpokenWord, cue_keys, cue_keys_of_file, cue_phones_of_espeak,
-    cue_phones_of_file, cue_recipe,
+    cue_phones_of_file, cue_recipe, read_pronunciation_dictionary,
 };
 pub use cued::{
     CueConfusion, CueCosts, CuePhaseRow, CuePhaseStatistics, CueRecognition, CueSlip, CueSlips, CueTargets,

@@ -13,8 +13,8 @@ use crate::output::CommandOutput;
 
 /// Generate cued speech for a text: the cueing hand next to the speaking face, on any body
 ///
-/// Rules of spelling turn French text into phones. With --phones the input itself is phones; --from takes phones and
-/// their times from a TextGrid or an EAF file. With --as the movement is stored as a new sign with tiers for phones,
+/// Rules of spelling turn French text into phones. With --phones the input itself is phones; --from takes phones, words
+/// or sentences and their times from a file with annotations, such as a TextGrid, EAF, XRA or SRT file. With --as the movement is stored as a new sign with tiers for phones,
 /// keys, hand and fingers; then the query `cue.shape=5 cue.placement=throat` finds its keys, and `cue=24 meets cue=31`
 /// finds pairs of keys.
 #[derive(Debug, clap::Args)]
@@ -65,21 +65,18 @@ pub(super) const PHASE_RULE_CHOICES: NamedChoices<PhaseRule> = NamedChoices(&[
 pub(super) fn run(cli: &CommandLine, args: &CueArgs, output: &mut CommandOutput) -> Result<()> {
     let mut corpus = cli.open_cli_corpus(&args.corpus)?;
     let spoken = &args.spoken;
-    let mut reading = spoken.spoken_keys_options(args.pace);
     let mut findings = Vec::new();
-    let text = match (&spoken.from, &spoken.text) {
+    let (text, reading) = match (&spoken.from, &spoken.text) {
         (Some(path), _) => {
+            let mut reading = spoken.spoken_keys_options(args.pace, output)?;
             let (phones, odd) = cue_phones_of_file(path, spoken.tier.as_deref(), &reading)?;
             findings = odd;
             // The file was read into SAMPA, whatever its own alphabet.
             reading.phones = Some(PhoneAlphabet::Sampa);
-            phones
+            reading.dictionary = None;
+            (phones, reading)
         }
-        (None, Some(text)) => {
-            let (text, said) = spoken.read_spoken_input(text, args.pace, output)?;
-            reading = said;
-            text
-        }
+        (None, Some(text)) => spoken.read_spoken_input(text, args.pace, output)?,
         (None, None) => bail!("there is nothing to cue; write a text, or --from FILE"),
     };
     let options = CueOptions {

@@ -3,7 +3,9 @@
 use std::path::PathBuf;
 
 use anyhow::{Result, bail};
-use chereme_corpus::{CueKey, KeysOptions, cue_keys, cue_keys_of_file, cue_phones_of_espeak};
+use chereme_corpus::{
+    CueKey, KeysOptions, cue_keys, cue_keys_of_file, cue_phones_of_espeak, read_pronunciation_dictionary,
+};
 use chereme_sign::cue::PhoneAlphabet;
 use chereme_sign::cue::french::{PronunciationOptions, SchwaCondition};
 
@@ -14,8 +16,8 @@ use crate::streams;
 /// Print the keys of cued speech for a text or for phones
 ///
 /// A key is a handshape at a placement: the shape stands for a consonant, the placement for a vowel. Rules of spelling
-/// turn French text into phones. Phones in the input are separated by blanks, or written together, as in bɔ̃ʒuʁ; `#` is a
-/// pause.
+/// turn French text into phones; `fils{f i l}` says a word as its braces state, and `--dictionary` brings your own
+/// pronunciations. Phones in the input are separated by blanks, or written together, as in bɔ̃ʒuʁ; `#` is a pause.
 ///
 /// `--json` gives "code", "words" ("text", "phones"), "keys" ("shape", "placement", "or_placement" if the
 /// vowel is uncertain, "phones" in SAMPA, "start_us", "vowel_us", "end_us": null without --pace) and
@@ -27,6 +29,8 @@ Examples:
   chereme keys 'b ɔ̃ ʒ u ʁ' --phones ipa
   chereme keys 'bonjour à tous' --pace 1.6 --json
   chereme keys --from talk.TextGrid --tier phones
+  chereme keys --from film.srt
+  chereme keys 'mes fils{f i l} et mes clefs' --dictionary mine.tsv
   chereme keys 'h aU s' --phones sampa --code english-us")]
 pub(crate) struct KeysArgs {
     #[command(flatten)]
@@ -46,10 +50,11 @@ pub(super) struct SpokenInput {
     /// The text, or the phones separated by blanks (a=120 is a phone of 120 ms); - is standard input
     #[arg(required_unless_present = "from")]
     pub(super) text: Option<String>,
-    /// Take phones and times from this TextGrid or EAF file
+    /// Take phones, words or sentences and their times from this file: TextGrid, EAF, XRA, SRT, VTT or another one with
+    /// annotations
     #[arg(long, value_name = "FILE", conflicts_with = "text")]
     pub(super) from: Option<PathBuf>,
-    /// The tier of phones in that file; without it the first whose name aligners use for phones
+    /// The tier of that file; without it the first whose name aligners use for phones, else for words, else the only one
     #[arg(long, value_name = "TIER", requires = "from")]
     pub(super) tier: Option<String>,
     /// Read the input as phones in this alphabet
@@ -64,6 +69,9 @@ pub(super) struct SpokenInput {
     /// A habit of some cuers, such as schwa-as-eu; may be repeated
     #[arg(long = "variant", value_name = "NAME")]
     variants: Vec<String>,
+    /// Say words as this file does: a word and its phones on each line, a dictionary of MFA or SPPAS, or Lexique's table
+    #[arg(long, value_name = "FILE", conflicts_with = "espeak")]
+    dictionary: Option<PathBuf>,
     /// Keep silent final consonants silent before a vowel
     #[arg(long)]
     no_liaison: bool,
@@ -81,7 +89,7 @@ impl SpokenInput {
         pace: Option<f64>,
         output: &mut CommandOutput,
     ) -> Result<(String, KeysOptions)> {
-        let mut options = self.spoken_keys_options(pace);
+        let mut options = self.spoken_keys_options(pace, output)?;
         let text = match text {
             "-" => streams::read_stdin_text()?,
             text => text.to_owned(),
@@ -99,8 +107,17 @@ impl SpokenInput {
         Ok((phones, options))
     }
 
-    pub(super) fn spoken_keys_options(&self, pace: Option<f64>) -> KeysOptions {
-        KeysOptions {
+    /// Returns the options, with the user's dictionary; lines of it that cannot be read are reported.
+    pub(super) fn spoken_keys_options(&self, pace: Option<f64>, output: &mut CommandOutput) -> Result<KeysOptions> {
+        let mut dictionary = None;
+        if let Some(path) = &self.dictionary {
+            let (read, warning) = read_pronunciation_dictionary(path, &self.code)?;
+            if let Some(warning) = warning {
+                output.write_warning(&warning)?;
+            }
+            dictionary = Some(read);
+        }
+        Ok(KeysOptions {
             code: self.code.clone(),
             phones: self.phones,
             variants: self.variants.clone(),
@@ -109,7 +126,8 @@ impl SpokenInput {
                 schwa: self.schwa,
             },
             pace,
-        }
+            dictionary,
+        })
     }
 }
 
@@ -129,9 +147,11 @@ const SCHWA_CHOICES: NamedChoices<SchwaCondition> = NamedChoices(&[
 
 pub(super) fn run(_: &CommandLine, args: &KeysArgs, output: &mut CommandOutput) -> Result<()> {
     let spoken = &args.spoken;
-    let options = spoken.spoken_keys_options(args.pace);
     let keyed_text = match (&spoken.from, &spoken.text) {
-        (Some(path), _) => cue_keys_of_file(path, spoken.tier.as_deref(), &options)?,
+        (Some(path), _) => {
+            let options = spoken.spoken_keys_options(args.pace, output)?;
+            cue_keys_of_file(path, spoken.tier.as_deref(), &options)?
+        }
         (None, Some(text)) => {
             let (text, options) = spoken.read_spoken_input(text, args.pace, output)?;
             cue_keys(&text, &options)?
