@@ -29,7 +29,7 @@ texts! {
     STOPPED: "Stopped before there were measures.", "Arrêté avant d’avoir des mesures.";
     AGAIN: "Measure again", "Mesurer de nouveau";
     DENSITY: "neighbours", "voisins";
-    PAIRS: "minimal pairs", "paires minimales";
+    PAIRS: "minimal pairs", "paires min.";
     HOMONYMS: "homonyms", "homonymes";
     FAMILY: "family", "famille";
     FAMILY_SIZE: "size of the family", "taille de la famille";

@@ -173,7 +173,7 @@ fn column_rects(row: Rect) -> impl Iterator<Item = Rect> {
 
 /// Paints a text into a cell: glosses at its left, numbers at its right, below each other.
 fn paint_cell(ui: &Ui, place: Rect, text: RichText, font: FontId, column: MeasureColumn) {
-    let inside = place.shrink2(vec2(5.0, 0.0));
+    let inside = place.shrink2(vec2(3.0, 0.0));
     let colour = ui.visuals().text_color();
     let galley = WidgetText::from(text).into_galley(ui, Some(TextWrapMode::Truncate), inside.width(), font);
     let (align, at) = match column {

@@ -23,11 +23,11 @@ impl MeasureColumn {
     pub(super) const ALL_MEASURE_COLUMNS: [(Self, InterfaceText, f32); 9] = [
         (Self::Gloss, search_words::GLOSS, 0.16),
         (Self::Density, words::DENSITY, 0.13),
-        (Self::Pairs, words::PAIRS, 0.14),
+        (Self::Pairs, words::PAIRS, 0.13),
         (Self::Homonyms, words::HOMONYMS, 0.12),
-        (Self::Family, words::FAMILY, 0.08),
+        (Self::Family, words::FAMILY, 0.07),
         (Self::Probability, words::PROBABILITY, 0.11),
-        (Self::PairProbability, words::PAIR_PROBABILITY, 0.08),
+        (Self::PairProbability, words::PAIR_PROBABILITY, 0.1),
         (Self::Tokens, words::TOKENS, 0.09),
         (Self::Signers, words::SIGNERS, 0.09),
     ];
