@@ -164,6 +164,7 @@ fn count_outcomes(report: &TierRoundReport) -> (usize, usize) {
 fn show_rows(ui: &mut Ui, seen: &PaneInput<'_>, report: &TierRoundReport) {
     let high = ui.text_style_height(&TextStyle::Small);
     let area = ScrollArea::vertical()
+        .auto_shrink([false, true])
         .id_salt("rows")
         .max_height(LIST_HEIGHT_POINTS)
         .min_scrolled_height(LIST_HEIGHT_POINTS);
@@ -219,6 +220,7 @@ fn show_recordings(ui: &mut Ui, seen: &PaneInput<'_>, form: &mut TierRoundForm) 
             RoundRecordings::Ticked => {
                 let high = ui.spacing().interact_size.y;
                 let area = ScrollArea::vertical()
+                    .auto_shrink([false, true])
                     .id_salt("ticked")
                     .max_height(LIST_HEIGHT_POINTS)
                     .min_scrolled_height(LIST_HEIGHT_POINTS);
