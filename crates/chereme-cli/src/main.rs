@@ -7,7 +7,7 @@ mod args;
 mod commands;
 mod output;
 #[cfg(test)]
-mod remedies;
+mod remedy_tests;
 mod streams;
 mod table;
 mod words;

@@ -169,7 +169,7 @@ impl Corpus {
             }
             match faults.is_empty() {
                 true => Ok(report),
-                false => Err(CorpusError::Several { errors: faults }),
+                false => Err(CorpusError::from_error_list(faults)),
             }
         };
         self.store.run_store_operation(|connection| {

@@ -419,7 +419,7 @@ fn true_frame_runs(holds: &[bool]) -> impl Iterator<Item = Range<usize>> + '_ {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::anatomy::fixtures::{PLAIN_BODY_VARIATION, fixture_body, fixture_joint_roles};
+    use crate::anatomy::tests::fixtures::{PLAIN_BODY_VARIATION, fixture_body, fixture_joint_roles};
     use crate::clip::JointChannel;
     use crate::time::FrameRate;
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::*;
-use crate::{args::CommandLine, remedies};
+use crate::{args::CommandLine, remedy_tests};
 use chereme_corpus::words::has_message;
 use chereme_tests::repository;
 use clap::CommandFactory;
@@ -92,7 +92,7 @@ fn every_line_and_error_of_a_command_has_a_french_form() {
         if !file.path.starts_with("crates/chereme-cli/src/") || file.path.contains("/words") {
             continue;
         }
-        for (before, text) in remedies::source_string_literals(&file.text) {
+        for (before, text) in remedy_tests::source_string_literals(&file.text) {
             let before = before.trim_end().trim_end_matches("format!(").trim_end();
             if !opened.iter().any(|it| before.ends_with(it)) {
                 continue;

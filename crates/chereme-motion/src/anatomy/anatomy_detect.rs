@@ -397,7 +397,7 @@ fn other_side(name: &str) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fixtures::{PLAIN_BODY_VARIATION, fixture_body, fixture_joint_roles, rename_joints};
+    use super::super::tests::fixtures::{PLAIN_BODY_VARIATION, fixture_body, fixture_joint_roles, rename_joints};
     use super::*;
     use crate::skeleton::SkeletonJoint;
 

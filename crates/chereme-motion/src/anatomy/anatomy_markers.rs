@@ -121,7 +121,7 @@ fn is_marker(name: &str) -> bool {
 mod tests {
     use glam::DVec3;
 
-    use super::super::fixtures::{PLAIN_BODY_VARIATION, fixture_body, rename_joints};
+    use super::super::tests::fixtures::{PLAIN_BODY_VARIATION, fixture_body, rename_joints};
     use super::super::{BodyAnatomy, BodyPart};
     use super::*;
     use crate::hand::{BodySide, HandFinger};

@@ -397,7 +397,7 @@ fn rotation_below_hand(skeleton: &Skeleton, hand: usize, joint: usize, pose: &Lo
 
 #[cfg(test)]
 mod tests {
-    use super::super::fixtures::{PLAIN_BODY_VARIATION, fixture_body, fixture_joint_roles};
+    use super::super::tests::fixtures::{PLAIN_BODY_VARIATION, fixture_body, fixture_joint_roles};
     use super::*;
     use crate::skeleton::SkeletonJoint;
 

@@ -359,7 +359,7 @@ fn split_landmark_name(name: &str) -> (Option<BodySide>, String) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fixtures::{PLAIN_BODY_VARIATION, fixture_body};
+    use super::super::tests::fixtures::{PLAIN_BODY_VARIATION, fixture_body};
     use super::*;
 
     #[test]

@@ -288,7 +288,7 @@ pub(super) fn trunk_axes(anatomy: &BodyAnatomy, model: &ModelPose) -> Option<[DV
 
 #[cfg(test)]
 mod tests {
-    use super::super::fixtures::{PLAIN_BODY_VARIATION, fixture_body};
+    use super::super::tests::fixtures::{PLAIN_BODY_VARIATION, fixture_body};
     use super::*;
 
     /// Returns the body with every bone of its limbs along the joint's X axis, as Maya writes them, backwards on the
@@ -312,7 +312,7 @@ mod tests {
     #[test]
     fn a_rest_pose_along_one_axis_is_no_reference() {
         let lowered = |lowered| {
-            fixture_body(super::super::fixtures::BodyVariation {
+            fixture_body(super::super::tests::fixtures::BodyVariation {
                 lowered,
                 ..PLAIN_BODY_VARIATION
             })

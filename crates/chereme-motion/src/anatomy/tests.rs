@@ -1,16 +1,18 @@
 //! Tests of the parts and landmarks that anatomy finds, on generated bodies and on real files.
 
+pub(crate) mod fixtures;
+
 use glam::{DQuat, DVec3};
 use proptest::prelude::*;
 
-use super::fixtures::conventions::{conventional_joint_name, naming_conventions};
-use super::fixtures::real::{read_bvh, shared_bvh_files};
-use super::fixtures::{
-    BodyVariation, PLAIN_BODY_VARIATION, any_turn, body_variations, fixture_body, fixture_joint_roles, rename_joints,
-};
 use super::*;
 use crate::hand::HandAngles;
 use crate::skeleton::SkeletonJoint;
+use fixtures::conventions::{conventional_joint_name, naming_conventions};
+use fixtures::real::{read_bvh, shared_bvh_files};
+use fixtures::{
+    BodyVariation, PLAIN_BODY_VARIATION, any_turn, body_variations, fixture_body, fixture_joint_roles, rename_joints,
+};
 
 fn worn(wear: BodyVariation) -> (Skeleton, BodyAnatomy) {
     let skeleton = fixture_body(wear);

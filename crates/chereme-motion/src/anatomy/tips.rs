@@ -179,7 +179,7 @@ impl BodyAnatomy {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fixtures::{BodyVariation, PLAIN_BODY_VARIATION, fixture_body, fixture_joint_roles};
+    use super::super::tests::fixtures::{BodyVariation, PLAIN_BODY_VARIATION, fixture_body, fixture_joint_roles};
     use super::*;
     use crate::hand::{BodySide, HandAngles};
     use crate::pose::ModelPose;

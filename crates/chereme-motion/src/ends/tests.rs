@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DQuat;
 
 use super::*;
-use crate::anatomy::fixtures::{BodyVariation, PLAIN_BODY_VARIATION, fixture_body, fixture_joint_roles};
+use crate::anatomy::tests::fixtures::{BodyVariation, PLAIN_BODY_VARIATION, fixture_body, fixture_joint_roles};
 use crate::clip::JointChannel;
 use crate::time::FrameRate;
 

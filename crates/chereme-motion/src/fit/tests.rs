@@ -1,7 +1,7 @@
 //! Tests of fitting a skeleton to markers whose true movement is known, and of the reported oddities.
 
 use super::*;
-use crate::anatomy::fixtures::{BodyVariation, PLAIN_BODY_VARIATION, fixture_body, fixture_joint_roles};
+use crate::anatomy::tests::fixtures::{BodyVariation, PLAIN_BODY_VARIATION, fixture_body, fixture_joint_roles};
 use crate::axes::SpaceConvention;
 use crate::column::FrameNumberColumn;
 

@@ -4,8 +4,8 @@ use glam::{DQuat, DVec3};
 use proptest::prelude::*;
 
 use super::*;
-use crate::anatomy::fixtures::real::{read_bvh, shared_bvh_files};
-use crate::anatomy::fixtures::{
+use crate::anatomy::tests::fixtures::real::{read_bvh, shared_bvh_files};
+use crate::anatomy::tests::fixtures::{
     BodyVariation, PLAIN_BODY_VARIATION, any_turn, body_variations, fixture_body, fixture_joint_roles,
 };
 use crate::anatomy::{BodyAnatomy, BodyPart};

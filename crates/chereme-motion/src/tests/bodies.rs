@@ -4,8 +4,8 @@ use glam::{DQuat, DVec3};
 
 use super::{dressed, list, milli, signing, turned};
 use crate::anatomy::detect_convention;
-use crate::anatomy::fixtures::conventions::{conventional_joint_name, naming_conventions};
-use crate::anatomy::fixtures::{
+use crate::anatomy::tests::fixtures::conventions::{conventional_joint_name, naming_conventions};
+use crate::anatomy::tests::fixtures::{
     BodyVariation, PLAIN_BODY_VARIATION, any_turn, body_variations, fixture_body, rename_joints,
 };
 use crate::golden::{compare, put};
@@ -245,7 +245,7 @@ fn golden_places_on_bodies() {
     ];
     for (name, skeleton) in &bodies {
         put(&mut out, format!("## {name}"));
-        let roles = crate::anatomy::fixtures::fixture_joint_roles(skeleton);
+        let roles = crate::anatomy::tests::fixtures::fixture_joint_roles(skeleton);
         let anatomy = BodyAnatomy::with_roles(skeleton, &roles).expect("a body");
         put(&mut out, format!("{:?}", anatomy.anatomy_measures()));
         let model = ModelPose::from_local_pose(skeleton, &signing(skeleton, &anatomy, 0.7));

@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 
-use crate::anatomy::fixtures::{BodyVariation, PLAIN_BODY_VARIATION, fixture_body, fixture_joint_roles};
+use crate::anatomy::tests::fixtures::{BodyVariation, PLAIN_BODY_VARIATION, fixture_body, fixture_joint_roles};
 use crate::{BodyAnatomy, BodyPart, BodySide, Clip, FrameRate, LocalPose, Skeleton};
 
 /// Returns a position in words, in millimetres.

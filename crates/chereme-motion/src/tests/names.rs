@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
-use crate::anatomy::fixtures::{BodyVariation, PLAIN_BODY_VARIATION, fixture_body, rename_joints};
+use crate::anatomy::tests::fixtures::{BodyVariation, PLAIN_BODY_VARIATION, fixture_body, rename_joints};
 use crate::golden::{compare, put};
 use crate::{BodyAnatomy, BodyPart, PartEvidence, Skeleton, SkeletonJoint};
 

@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3};
 
 use super::{dressed, milli, signing, turned};
-use crate::anatomy::fixtures::{BodyVariation, PLAIN_BODY_VARIATION, any_turn};
+use crate::anatomy::tests::fixtures::{BodyVariation, PLAIN_BODY_VARIATION, any_turn};
 use crate::golden::{LITTLE, compare, compare_to, put};
 use crate::ik::{
     ElbowSolver, FabrikOptions, ReachOptions, TwoBoneOptions, WristTarget, reach_wrist, solve_fabrik, two_bone,

@@ -6,7 +6,7 @@ use glam::{DQuat, DVec3};
 
 use super::{dressed, list, milli, signing, take, turned, usual_take};
 use crate::anatomy::HandRange;
-use crate::anatomy::fixtures::{BodyVariation, PLAIN_BODY_VARIATION};
+use crate::anatomy::tests::fixtures::{BodyVariation, PLAIN_BODY_VARIATION};
 use crate::column::FrameNumberColumn;
 use crate::ends::{ClipEnds, activity_frames};
 use crate::golden::{LITTLE, compare, compare_to, put};

@@ -97,4 +97,4 @@ pub use tree::{
 };
 
 #[cfg(test)]
-mod laws;
+mod laws_tests;

@@ -209,7 +209,7 @@ pub fn attribute_field_text(name: &str) -> String {
 /// Returns whether a text is the name of an attribute as a query spells it.
 pub(super) fn is_attribute_field(text: &str) -> bool {
     let opens = text.split_once('(').is_some_and(|(word, _)| opens_name(word));
-    opens || strip_attribute_prefix(text).is_some()
+    opens || attribute_name_of_word(text).is_some()
 }
 
 /// Writes the name of an attribute as a query spells it.

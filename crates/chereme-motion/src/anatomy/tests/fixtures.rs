@@ -5,7 +5,7 @@ pub(crate) mod real;
 
 use glam::{DQuat, DVec3};
 
-use super::BodyPart;
+use crate::anatomy::BodyPart;
 use crate::hand::{BodySide, HandFinger};
 use crate::skeleton::{Skeleton, SkeletonJoint};
 
@@ -231,8 +231,8 @@ pub(crate) fn rename_joints(skeleton: &Skeleton, name: impl Fn(usize, &str) -> S
 
 /// Returns roles that give every joint of [`fixture_body`] the part that it is named after, so that tests do not depend on the
 /// detection of names.
-pub(crate) fn fixture_joint_roles(skeleton: &Skeleton) -> super::AssignedJointRoles {
+pub(crate) fn fixture_joint_roles(skeleton: &Skeleton) -> crate::anatomy::AssignedJointRoles {
     let joints = skeleton.skeleton_joints().iter();
     let named = joints.filter_map(|joint| Some((joint.name.parse().ok()?, joint.name.clone())));
-    super::AssignedJointRoles(named.collect())
+    crate::anatomy::AssignedJointRoles(named.collect())
 }
