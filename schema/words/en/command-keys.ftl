@@ -15,7 +15,7 @@ help-command-keys-say-words-as-this-file-does = Say words as this file does: a w
 help-command-keys-keep-silent-final-consonants-silent-before = Keep silent final consonants silent before a vowel
 help-command-keys-pronunciation-e-at-end-word = The pronunciation of an e at the end of a word
 help-command-keys-give-keys-times-duration-phones-as = Give the keys times: the duration of phones as a multiple of the usual one, from 0.1 to 10; people who cue need about 1.6
-help-command-keys-key-handshape-at-placement-shape-stands = A key is a handshape at a placement: the shape stands for a consonant, the placement for a vowel. Rules of spelling turn French text into phones; `fils{f i l}` says a word as its braces state, and `--dictionary` brings your own pronunciations. Phones in the input are separated by blanks, or written together, as in bɔ̃ʒuʁ; `#` is a pause.
+help-command-keys-key-handshape-at-placement-shape-stands = A key is a handshape at a placement: the shape stands for a consonant, the placement for a vowel. Rules of spelling turn French text into phones; `fils{ "{" }f i l{ "}" }` says a word as its braces state, and `--dictionary` brings your own pronunciations. Phones in the input are separated by blanks, or written together, as in bɔ̃ʒuʁ; `#` is a pause.
 help-command-keys-json-gives-code-words-text-phones = `--json` gives "code", "words" ("text", "phones"), "keys" ("shape", "placement", "or_placement" if the vowel is uncertain, "phones" in SAMPA, "start_us", "vowel_us", "end_us": null without --pace) and "findings".
 
 ## Titles of columns.

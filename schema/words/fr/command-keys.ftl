@@ -15,7 +15,7 @@ help-command-keys-say-words-as-this-file-does = Prononcer les mots comme ce fich
 help-command-keys-keep-silent-final-consonants-silent-before = Laisser muettes les consonnes finales muettes devant une voyelle
 help-command-keys-pronunciation-e-at-end-word = La prononciation d’un e final
 help-command-keys-give-keys-times-duration-phones-as = Donner des temps aux clés : la durée des phones en multiple de la durée habituelle, de 0.1 à 10 ; qui code en a besoin d’environ 1.6
-help-command-keys-key-handshape-at-placement-shape-stands = Une clé est une configuration à un emplacement : la configuration vaut pour une consonne, l’emplacement pour une voyelle. Des règles d’orthographe donnent les phones d’un texte français ; `fils{f i l}` prononce un mot comme ses accolades le disent, et `--dictionary` apporte vos propres prononciations. Dans l’entrée, les phones sont séparés par des espaces, ou écrits ensemble, comme dans bɔ̃ʒuʁ ; `#` est une pause.
+help-command-keys-key-handshape-at-placement-shape-stands = Une clé est une configuration à un emplacement : la configuration vaut pour une consonne, l’emplacement pour une voyelle. Des règles d’orthographe donnent les phones d’un texte français ; `fils{ "{" }f i l{ "}" }` prononce un mot comme ses accolades le disent, et `--dictionary` apporte vos propres prononciations. Dans l’entrée, les phones sont séparés par des espaces, ou écrits ensemble, comme dans bɔ̃ʒuʁ ; `#` est une pause.
 help-command-keys-json-gives-code-words-text-phones = `--json` donne "code", "words" ("text", "phones"), "keys" ("shape", "placement", "or_placement" si la voyelle est incertaine, "phones" en SAMPA, "start_us", "vowel_us", "end_us" : null sans --pace) et "findings".
 
 ## Titles of columns.
