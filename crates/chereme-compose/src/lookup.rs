@@ -1,7 +1,8 @@
 //! Looks values and letters up in inventories, for a corpus that answers [`RecipeSources`](crate::RecipeSources).
 
-use chereme_motion::glam::{DQuat, DVec3};
+use chereme_motion::glam::DVec3;
 use chereme_sign::SignComponent;
+use chereme_sign::hamnosys::orientation;
 use chereme_sign::inventory::{ComponentInventory, InventoryValue};
 use chereme_sign::text::fold_text;
 
@@ -148,18 +149,10 @@ fn letter(all: &[&ComponentInventory], alphabet: &ComponentInventory, value: &In
     }
 }
 
-/// Returns the direction of the palm in HamNoSys's convention: palm down on a hand that points out, rotated by `roll`
-/// to the right, then rotated with the hand to its direction by the shortest rotation.
+/// Returns the direction of the palm as notation writes it for fingers in that direction; without one, they point up.
 fn lookup_palm_direction(fingers: Option<[f64; 3]>, roll: f64) -> DVec3 {
-    let out = DVec3::new(-roll.sin(), -roll.cos(), 0.0);
-    let to = fingers.map_or(DVec3::Y, DVec3::from).normalize_or(DVec3::Y);
-    let turn = if to.z < -1.0 + 1e-9 {
-        // Straight back: over the top, as people do it.
-        DQuat::from_rotation_x(std::f64::consts::PI)
-    } else {
-        DQuat::from_rotation_arc(DVec3::Z, to)
-    };
-    turn * out
+    let fingers = fingers.map_or(DVec3::Y, DVec3::from).normalize_or(DVec3::Y);
+    DVec3::from(orientation::palm_direction_vector(fingers.to_array(), roll))
 }
 
 #[cfg(test)]
@@ -191,6 +184,21 @@ mod tests {
                 .len(),
             8
         );
+    }
+
+    #[test]
+    fn palms_of_letters_face_as_notation_writes_them() {
+        let half = 0.5_f64.sqrt();
+        for (fingers, roll, faces) in [
+            (Some([0.0, 1.0, 0.0]), 0.0, DVec3::Z),
+            (Some([0.0, -1.0, 0.0]), 0.0, DVec3::NEG_Z),
+            (Some([half, half, 0.0]), 0.0, DVec3::new(half, -half, 0.0)),
+            (Some([half, half, 0.0]), -std::f64::consts::FRAC_PI_2, DVec3::NEG_Z),
+            (None, -std::f64::consts::FRAC_PI_2, DVec3::X),
+        ] {
+            let palm = lookup_palm_direction(fingers, roll);
+            assert!(palm.abs_diff_eq(faces, 1e-9), "{fingers:?} {roll}: {palm}");
+        }
     }
 
     #[test]
