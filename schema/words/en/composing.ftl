@@ -79,6 +79,7 @@ message-composing-movement-would-last-s-at-most = the movement would last { $sec
 message-composing-name-them-in-roles-file = name them in a roles file
 message-composing-animate-signs-one-by-one = animate its signs one by one
 message-composing-hands-remain-cm-deep-in-each = the hands remain { $cm } cm deep in each other
+message-composing-forearms-remain-cm-deep-in-each = the forearms remain { $cm } cm deep in each other
 message-composing-hands-would-go-through-each-other = the hands would go through each other at { $time } s: each moves { $cm } cm aside
 message-composing-hand-would-go-through-head-at = the { $side } hand would go through the head at { $time } s: it moves { $cm } cm aside
 message-composing-movements-turned-by-shortened-by-so = movements are turned by { $angle } and shortened by { $share } %, so that the arm stays comfortable

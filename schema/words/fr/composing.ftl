@@ -79,6 +79,7 @@ message-composing-movement-would-last-s-at-most = le mouvement durerait { $secon
 message-composing-name-them-in-roles-file = nommez-les dans un fichier de rôles
 message-composing-animate-signs-one-by-one = animez ses signes un à un
 message-composing-hands-remain-cm-deep-in-each = les mains restent l’une dans l’autre de { $cm } cm
+message-composing-forearms-remain-cm-deep-in-each = les avant-bras restent l’un dans l’autre de { $cm } cm
 message-composing-hands-would-go-through-each-other = les mains se traverseraient à { $time } s : chacune s’écarte de { $cm } cm
 message-composing-hand-would-go-through-head-at = la main { $side } traverserait la tête à { $time } s : elle s’écarte de { $cm } cm
 message-composing-movements-turned-by-shortened-by-so = les mouvements sont tournés de { $angle } et raccourcis de { $share } %, pour que le bras reste à l’aise

@@ -1,5 +1,6 @@
 //! Tests of two hands beside each other, and of paths that would lead through the trunk or be lost in a turn.
 
+use chereme_motion::glam::DVec3;
 use chereme_motion::{BodyPart, BodySide, ModelPose};
 use chereme_sign::hamnosys::{
     BodyLanguage, BodyLocation, HandClass, HandConstellation, HandPlace, HandsUsed, MotionKind, NotatedMotion,
@@ -113,6 +114,44 @@ fn palms_that_touch_each_other_stay_together_while_they_move() {
     // Tips lean apart a little where the wrists reach their limits.
     let most = apart.fold(0.0, f64::max);
     assert!(most < 0.04, "{most} m");
+}
+
+#[test]
+fn forearms_in_each_other_are_reported() {
+    let arm = StandingBody::body_from_material(&stage(Axes::Plain))
+        .expect("a body")
+        .arm;
+    let wrists = "hamparbegin hamwristback hampalm hamplus hamwristback hampalm hamparend hamcross";
+    let mut reported = 0;
+    for names in [
+        format!("hamsymmlr hamfist hamextfingerul hampalmd {wrists}"),
+        format!("hamsymmlr hamflathand hamextfingerul hampalml {wrists}"),
+        "hamsymmlr hamflathand hamextfingero hampalmd hamchest hammoveo".to_owned(),
+        "hamsymmlr hamfist hamextfingeru hampalml hamshoulders hammoved".to_owned(),
+    ] {
+        let made = made(&names);
+        let frames = 0..made.clip.clip_frame_count();
+        let forearms = frames.map(|frame| {
+            let model = made.clip.model_pose(frame);
+            BodySide::BOTH_SIDES.map(|side| {
+                let arm = made.anatomy.arm_chain(side).expect("an arm");
+                [arm.forearm, arm.hand].map(|joint| model.model_joint_position(joint))
+            })
+        });
+        // Points on each forearm: the wrist itself belongs to the hand.
+        let points = |[elbow, wrist]: [DVec3; 2]| (0..18).map(move |n| elbow.lerp(wrist, 0.05 * f64::from(n)));
+        let gaps = forearms.map(|[right, left]| {
+            let pairs = points(right).flat_map(|a| points(left).map(move |b| a.distance(b)));
+            pairs.fold(f64::INFINITY, f64::min)
+        });
+        let least = gaps.fold(f64::INFINITY, f64::min);
+        let said = made.report.warnings.iter().any(|said| said.contains("forearms remain"));
+        // Forearms are a seventh or an eighth as thick as an arm is long, and give way by 2 cm.
+        assert!(!said || least < arm / 7.0 - 0.02, "{names}: {least} m apart");
+        assert!(said || least > arm / 8.0 - 0.02, "{names}: {least} m apart");
+        reported += usize::from(said);
+    }
+    assert!((1..3).contains(&reported), "{reported}");
 }
 
 #[test]

@@ -173,6 +173,10 @@ pub fn animate_signs(
         }
         _ => None,
     };
+    let crossed_forearms = match arms.as_slice() {
+        &[first, second] => notation_bulk::remaining_forearm_depth(body.arm, [first, second]),
+        _ => None,
+    };
     let moved: Vec<_> = arms.iter().map(|made| made.solved_arm_movement()).collect();
     let mut moved_arms = moved.iter().copied();
     let solved = [0, 1].map(|n| made_tracks[n].as_ref().and_then(|_| moved_arms.next()));
@@ -214,6 +218,10 @@ pub fn animate_signs(
     if let Some(left) = left {
         plan.remarks
             .push(format!("the hands remain {:.1} cm deep in each other", left * 100.0));
+    }
+    if let Some(deep) = crossed_forearms {
+        plan.remarks
+            .push(format!("the forearms remain {:.1} cm deep in each other", deep * 100.0));
     }
     if let Some(parted) = farther(parted, cleared) {
         plan.remarks.push(format!(

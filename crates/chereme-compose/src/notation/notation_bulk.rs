@@ -11,6 +11,10 @@ use super::outlines::OutlineTrack;
 
 /// Half the thickness of a finger, of the thumb's root, and of a palm, in hand lengths.
 const FLESH_RADII: [f64; 3] = [FINGER_FLESH, 0.055, 0.07];
+/// Half the mean thickness of a forearm, in arm lengths: 3.7 cm at an arm of 55 cm.
+const FOREARM_FLESH_RADIUS: f64 = 0.067;
+/// Depth (m) of forearms in each other above which a warning is issued: flesh and sleeves give way by less.
+const REPORTED_FOREARM_DEPTH_M: f64 = 0.02;
 /// The number of rounds in which hands are moved apart.
 const HANDS_APART_ROUNDS: usize = 4;
 /// Displacement (m) of each hand above which it is reported.
@@ -114,6 +118,18 @@ pub(crate) fn remaining_hand_depth(length: f64, hands: [&SolvedFrames<'_>; 2]) -
         deepest = deepest.max(hand_overlap_depth(length, [&a, &b]).map_or(0.0, |(deep, _)| deep));
     }
     (deepest > REPORTED_HAND_DEPTH_M + depth_left()).then_some(deepest)
+}
+
+/// Returns the depth (m) by which two forearms are in each other in any frame, if it is large enough to report;
+/// `arm` is the arm's length in metres. Near the wrist the bulk of the hands counts instead.
+pub(crate) fn remaining_forearm_depth(arm: f64, [first, second]: [&SolvedFrames<'_>; 2]) -> Option<f64> {
+    let frames = 0..first.solved_frame_total().min(second.solved_frame_total());
+    let gaps = frames.map(|frame| {
+        let [a, b] = [first, second].map(|hand| hand.forearm_ends_at(frame));
+        shortest_segment_vector(a, b).length()
+    });
+    let deepest = 2.0 * FOREARM_FLESH_RADIUS * arm - gaps.fold(f64::INFINITY, f64::min);
+    (deepest > REPORTED_FOREARM_DEPTH_M).then_some(deepest)
 }
 
 /// Returns whether both hands touch something at a time.

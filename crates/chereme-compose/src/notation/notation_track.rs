@@ -256,6 +256,12 @@ impl<'a> SolvedFrames<'a> {
         self.got.len()
     }
 
+    /// Returns the ends of the forearm's thick part in a frame: the elbow, and a point before the wrist.
+    pub(crate) fn forearm_ends_at(&self, frame: usize) -> [DVec3; 2] {
+        let posed = &self.got[frame].posed;
+        [posed.elbow, posed.elbow.lerp(posed.wrist, 0.85)]
+    }
+
     /// Returns whether the hand is the same in two frames.
     pub(crate) fn is_hand_unchanged(&self, a: usize, b: usize) -> bool {
         let [one, other] = [&self.got[a], &self.got[b]];
