@@ -503,7 +503,7 @@ impl CheckRun<'_, '_> {
                         place: format!("signer:{alias}"),
                         message: format!("{alias:?} is another name of {}, and somebody else is called so", person.name),
                         remedy: ErrorRemedy::command_remedy(
-                            "make them one: `chereme people CORPUS unite`, or take the name away: `chereme people CORPUS set NAME`",
+                            "make them one: `chereme people CORPUS unite PERSON --into NAME`, or take the name away: `chereme people CORPUS set NAME`",
                         ),
                     });
                 }

@@ -123,7 +123,7 @@ impl Corpus {
                 return Err(CorpusError::from_wrong_message(text)
                     .with_error_place(row.name)
                     .with_advice(ErrorRemedy::command_remedy(
-                        "forget the person with all of it: `chereme forget CORPUS signer:NAME`, or make them one with somebody: `chereme people CORPUS unite`",
+                        "forget the person with all of it: `chereme forget CORPUS signer:NAME`, or make them one with somebody: `chereme people CORPUS unite PERSON --into NAME`",
                     )));
             }
             people::delete_person(connection, row.id)?;
@@ -195,7 +195,7 @@ fn check_free_name(connection: &Connection, person: i64, name: &str) -> CorpusRe
         ))
         .with_error_place(name)
         .with_advice(ErrorRemedy::command_remedy(
-            "choose another name, or make the two one: `chereme people CORPUS unite`",
+            "choose another name, or make the two one: `chereme people CORPUS unite PERSON --into NAME`",
         ))),
         _ => Ok(()),
     }

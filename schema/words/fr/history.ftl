@@ -58,7 +58,7 @@ history-rename-sign = Signe { $former } renommé en { $sign }, dans { $annotatio
 }
 history-set-citation = Forme de citation : token:{ $token } pour { $gloss }
 history-change-person = Personne modifiée : { $person }
-history-unite-people = { $names } réunis en une seule personne : { $person }
+history-unite-people = { $names } et { $person } ne font plus qu’une seule personne
 history-remove-person = Personne supprimée : { $person }
 history-import-people = { $people ->
     [one] une personne lue
