@@ -360,7 +360,7 @@ fn attributes_line(attributes: &[PersonAttribute]) -> String {
     parts.collect::<Vec<_>>().join("; ")
 }
 
-/// Returns what a typed line says otherwise than before; what it leaves out has an empty text.
+/// Returns what a typed line says differently from before; what it leaves out has an empty text.
 fn changed_attributes(attributes: &[PersonAttribute], line: &str) -> BTreeMap<String, String> {
     let mut changed: BTreeMap<String, String> = listed_parts(line)
         .map(|part| part.split_once('=').unwrap_or((part, "")))
