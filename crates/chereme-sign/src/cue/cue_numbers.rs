@@ -129,7 +129,7 @@ fn read_parted_number(rest: &[char]) -> Option<(usize, Option<Vec<String>>)> {
         };
         return Some((length, Some(pairs.iter().flat_map(pair_words).collect())));
     }
-    let months = FRENCH_SPELLING_RULES.months.iter();
+    let months = &FRENCH_SPELLING_RULES.months;
     match *parts(&['/']) {
         [(_, Some(day @ 1..=31)), (_, Some(month @ 1..=12)), (2 | 4, Some(year))] => {
             let mut words = if day == 1 {
@@ -137,7 +137,7 @@ fn read_parted_number(rest: &[char]) -> Option<(usize, Option<Vec<String>>)> {
             } else {
                 cardinal(day)
             };
-            words.extend(months.cloned().nth(month as usize - 1));
+            words.extend(months.get(month as usize - 1).cloned());
             words.extend(cardinal(year));
             Some((length, Some(words)))
         }
