@@ -14,7 +14,7 @@ message-command-people-name-and-text = write a name and a text, such as region=n
 ## Help of commands and options.
 
 help-command-people-list = List the people of a corpus, say who they are, and make two names one person
-help-command-people-one-name = Signers, participants of tiers and annotators are people. A person has one name that the corpus uses, any number of other names, under which files may know them, and attributes of your choice: region, age, school. The signer of a token is the participant of its tier, or else the signer of its recording. Queries know every name (signer=Ada), and attributes as signer.region=north, signer.age>40; `chereme search CORPUS --count signer.region` counts by them.
+help-command-people-one-name = Signers, participants of tiers and annotators are people. A person has one name that the corpus uses, any number of other names, under which files may know them, and attributes of your choice: region, age, school. The signer of a token is the participant of its tier, or else the signer of its recording. Queries know every name (signer=Ada), and attributes as signer.region=north, signer.age>40; `chereme search CORPUS QUERY --count signer.region` counts by them.
 help-command-people-audience = An attribute is for you alone until you say who else may see it (--for). Other names never leave in a copy for others. Without an action all people are listed. `--json` gives for each "id", "name", "aliases", "handedness", "notes", "attributes", "recordings", "participant_tiers" and "annotator_tiers".
 help-command-people-set = Say who a person is: names, dominant hand, remarks and attributes
 help-command-people-unite = Make people one, everywhere: recordings, participants, annotators, names and attributes; undo takes it back

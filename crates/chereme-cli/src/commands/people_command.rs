@@ -17,7 +17,7 @@ use crate::streams;
 /// Signers, participants of tiers and annotators are people. A person has one name that the corpus uses, any number of other
 /// names, under which files may know them, and attributes of your choice: region, age, school. The signer of a token is
 /// the participant of its tier, or else the signer of its recording. Queries know every name (signer=Ada), and attributes
-/// as signer.region=north, signer.age>40; `chereme search CORPUS --count signer.region` counts by them.
+/// as signer.region=north, signer.age>40; `chereme search CORPUS QUERY --count signer.region` counts by them.
 ///
 /// An attribute is for you alone until you say who else may see it (--for). Other names never leave in a copy for others.
 /// Without an action all people are listed. `--json` gives for each "id", "name", "aliases", "handedness", "notes",
