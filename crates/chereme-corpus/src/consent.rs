@@ -209,32 +209,48 @@ fn consent_row(of: &'static str, row: consents::ConsentColumn) -> CorpusResult<C
     })
 }
 
+/// What became of the consents of two people who are one person now.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum UnitedConsent {
+    /// Both had said the same.
+    Same,
+    /// They had agreed to different things; what both agreed to holds.
+    Narrower,
+    /// One had said nothing; what the other agreed to holds for the recordings of both.
+    Extended,
+}
+
 /// Gives a person the consent that two people have in common, before the other becomes the same person. If one of the two
-/// said nothing, the other's holds. Returns whether the person agrees to less than before.
-pub(crate) fn unite_consents(connection: &Connection, from: i64, into: i64) -> CorpusResult<bool> {
+/// said nothing, the other's holds.
+pub(crate) fn unite_consents(connection: &Connection, from: i64, into: i64) -> CorpusResult<UnitedConsent> {
     let rows = consents::of_signers(connection)?;
     let read = |id: i64| {
         let row = rows.iter().find(|row| row.id == id);
         PersonConsent::parse_consent_json(row.and_then(|row| row.consent.as_deref()), &format!("signer:{id}"))
     };
     let (theirs, mine) = (read(from)?, read(into)?);
-    if theirs == PersonConsent::default() || theirs == mine {
-        return Ok(false);
+    if theirs == mine {
+        return Ok(UnitedConsent::Same);
     }
-    // An unknown audience is the least of all.
-    let common = match mine == PersonConsent::default() {
-        true => theirs,
-        false => PersonConsent {
-            movement: mine.movement.min(theirs.movement),
-            annotation: mine.annotation.min(theirs.annotation),
-            derived: mine.derived.min(theirs.derived),
-            ..mine.clone()
-        },
+    let unknown = PersonConsent::default();
+    if theirs == unknown {
+        return Ok(UnitedConsent::Extended);
+    }
+    let (common, outcome) = match mine == unknown {
+        true => (theirs, UnitedConsent::Extended),
+        // An unknown audience is the least of all.
+        false => {
+            let common = PersonConsent {
+                movement: mine.movement.min(theirs.movement),
+                annotation: mine.annotation.min(theirs.annotation),
+                derived: mine.derived.min(theirs.derived),
+                ..mine
+            };
+            (common, UnitedConsent::Narrower)
+        }
     };
     consents::set_of_signer(connection, into, common.to_consent_json().as_deref())?;
-    let audiences = |consent: &PersonConsent| ConsentKind::ALL_CONSENT_KINDS.map(|kind| consent.audience_of_kind(kind));
-    let narrower = |(new, old): (Option<ConsentAudience>, Option<ConsentAudience>)| new < old;
-    Ok(audiences(&common).into_iter().zip(audiences(&mine)).any(narrower))
+    Ok(outcome)
 }
 
 /// Returns the consent at an address, and its JSON.

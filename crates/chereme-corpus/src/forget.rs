@@ -14,7 +14,7 @@ use crate::Corpus;
 use crate::address::{self, RowName};
 use crate::consent::PublishPermissions;
 use crate::db::stored_erase::{self, ErasedTraces};
-use crate::db::{consents, stored_recordings};
+use crate::db::{consents, edits, stored_recordings};
 use crate::error::{CorpusError, CorpusResult};
 use crate::merge;
 use crate::progress::ProgressReceiver;
@@ -56,7 +56,7 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if there is no such signer, or if something else needs the recordings: signs of others that were made from
-    /// them, recordings that show others, too, studies, and decisions that are open after a merge. Fails if another
+    /// them, recordings that show others, too, recordings of others that the person annotated, studies, and decisions that are open after a merge. Fails if another
     /// program uses the file, or if something was found in the bytes afterwards.
     pub fn forget_signer(
         &mut self,
@@ -165,6 +165,15 @@ fn refuse_what_is_needed(connection: &Connection, signer: &str, recordings: &BTr
         &recording_names(connection, &with_others)?,
         "recordings show this person and others",
         "delete these recordings, or the tiers of one of them, first".into(),
+    )?;
+    let annotated = edits::recordings_of_annotator(connection, signer)?.into_iter();
+    let annotated_of_others = annotated.filter(|recording| !recordings.contains(recording)).collect();
+    refuse(
+        &recording_names(connection, &annotated_of_others)?,
+        "the person annotated recordings of others",
+        ErrorRemedy::command_remedy(
+            "give the annotator another name first: `chereme people CORPUS set NAME --name ANNOTATOR`",
+        ),
     )?;
     let undecided = merge::undecided_conflicts(connection)?;
     let open: Vec<String> = undecided.iter().map(|conflict| conflict.number.to_string()).collect();

@@ -11,7 +11,7 @@ use serde::Serialize;
 
 use crate::Corpus;
 use crate::address::{self, RowName};
-use crate::consent::ConsentAudience;
+use crate::consent::{ConsentAudience, UnitedConsent};
 use crate::db::people::{self, PersonAttribute, PersonContents};
 use crate::db::stored_recordings::{self, SignerRow};
 use crate::db::{edits, stored_check};
@@ -54,6 +54,8 @@ pub struct UnitedPeople {
     pub tiers: u64,
     /// Whether the consent of the person became narrower by that of another.
     pub is_consent_narrower: bool,
+    /// Whether what one of them agreed to holds for recordings of another who had said nothing.
+    pub is_consent_extended: bool,
 }
 
 /// The report on a table of people.
@@ -225,8 +227,7 @@ pub(crate) fn change_person_row(
         edits::update_signer(connection, &row)?;
     }
     if row.name != old.name {
-        edits::rename_participant(connection, &old.name, &row.name)?;
-        edits::rename_annotator(connection, &old.name, &row.name)?;
+        take_over_names(connection, &old.name, &row.name)?;
         if change.keeps_former_name {
             people::insert_person_alias(connection, row.id, &old.name)?;
         }
@@ -236,8 +237,12 @@ pub(crate) fn change_person_row(
         check_free_name(connection, row.id, &alias)?;
         if stored_recordings::find_signer(connection, &alias)?.is_none() {
             people::insert_person_alias(connection, row.id, &alias)?;
-            // Tiers that came under this name before are those of the person.
-            take_over_names(connection, &alias, &row.name)?;
+            // Tiers that came under this name before are those of the person, and two readings of one annotator agree.
+            if take_over_names(connection, &alias, &row.name)? > 0 {
+                let recordings = edits::recordings_of_signer(connection, row.id)?;
+                derive_recordings(connection, recordings)?;
+                derive_recordings(connection, edits::recordings_of_annotator(connection, &row.name)?)?;
+            }
         }
     }
     for alias in &change.remove_aliases {
@@ -302,8 +307,10 @@ fn require_person_name(text: &str) -> CorpusResult<String> {
     }
 }
 
-/// Makes the participant and the annotator of all tiers who have one name have another.
+/// Gives the participants and the annotators of tiers, and the preferred annotator, who have one name another. Returns the
+/// number of tiers.
 fn take_over_names(connection: &Connection, old: &str, new: &str) -> CorpusResult<u64> {
+    tokens::rename_preferred_annotator(connection, old, new)?;
     let tiers = edits::rename_participant(connection, old, new)? + edits::rename_annotator(connection, old, new)?;
     Ok(tiers as u64)
 }
@@ -339,6 +346,7 @@ fn unite_person_rows(connection: &Connection, from: &[RowName], into: &RowName) 
         recordings: 0,
         tiers: 0,
         is_consent_narrower: false,
+        is_consent_extended: false,
     };
     let former = kept.clone();
     let mut changed_recordings = BTreeSet::new();
@@ -350,11 +358,14 @@ fn unite_person_rows(connection: &Connection, from: &[RowName], into: &RowName) 
         changed_recordings.extend(recordings);
         // Two readings of one annotator are no disagreement any more.
         changed_recordings.extend(edits::recordings_of_annotator(connection, &row.name)?);
-        report.is_consent_narrower |= crate::consent::unite_consents(connection, row.id, kept.id)?;
+        match crate::consent::unite_consents(connection, row.id, kept.id)? {
+            UnitedConsent::Same => {}
+            UnitedConsent::Narrower => report.is_consent_narrower = true,
+            UnitedConsent::Extended => report.is_consent_extended = true,
+        }
         people::move_person_rows(connection, row.id, kept.id)?;
         report.tiers += take_over_names(connection, &row.name, &kept.name)?;
         people::insert_person_alias(connection, kept.id, &row.name)?;
-        tokens::rename_preferred_annotator(connection, &row.name, &kept.name)?;
         if kept.handedness.is_none() {
             kept.handedness = row.handedness;
         }

@@ -6,6 +6,7 @@ line-command-people-changed = people changed: { $n } { $names }
 line-command-people-unchanged = people as they were: { $n }
 line-command-people-removed = person removed: { $name }
 message-command-people-consent-narrower = what they agreed to differed: the narrower consent holds from now on
+message-command-people-consent-extended = one of them had agreed to nothing: what the other agreed to holds for both
 message-command-people-dry-run = a dry run: nothing was changed
 message-command-people-nobody = the corpus knows nobody yet
 message-command-people-add-option = add --name, --handedness, --notes, --alias, --no-alias, --attribute or --for

@@ -6,6 +6,7 @@ line-command-people-changed = personnes modifiées : { $n } { $names }
 line-command-people-unchanged = personnes inchangées : { $n }
 line-command-people-removed = personne supprimée : { $name }
 message-command-people-consent-narrower = leurs consentements différaient : le plus étroit vaut désormais
+message-command-people-consent-extended = l’un n’avait consenti à rien : ce à quoi l’autre a consenti vaut pour les deux
 message-command-people-dry-run = un essai : rien n’a été modifié
 message-command-people-nobody = le corpus ne connaît encore personne
 message-command-people-add-option = ajoutez --name, --handedness, --notes, --alias, --no-alias, --attribute ou --for

@@ -139,6 +139,9 @@ pub(super) fn run(cli: &CommandLine, args: &PeopleArgs, output: &mut CommandOutp
             if report.is_consent_narrower {
                 output.write_warning("what they agreed to differed: the narrower consent holds from now on")?;
             }
+            if report.is_consent_extended {
+                output.write_warning("one of them had agreed to nothing: what the other agreed to holds for both")?;
+            }
             return output.set_json_document(report);
         }
         Some(PeopleAction::Import {

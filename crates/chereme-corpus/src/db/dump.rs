@@ -59,7 +59,7 @@ pub(crate) struct OmittedRows<'a> {
     /// Whether the history goes, with all that was deleted.
     pub(crate) history: bool,
     /// The people for whom the copy is, if it is for others: studies with their answers, saved searches, other names of
-    /// people, and what is said of people to fewer go.
+    /// people, remarks about them, and attributes that fewer may see go.
     pub(crate) audience: Option<ConsentAudience>,
 }
 
@@ -106,11 +106,12 @@ pub(crate) fn erase_rows(connection: &Connection, omitted: OmittedRows<'_>) -> C
         connection.execute_batch("DELETE FROM changeset; DELETE FROM operation;")?;
     }
     if let Some(audience) = omitted.audience {
-        // Another name may be the true one behind a code.
+        // Another name may be the true one behind a code, and nobody agreed that others read remarks about people.
         connection.execute_batch(
             "DELETE FROM study_answer; DELETE FROM study_participant; DELETE FROM study; DELETE FROM kept_search;
              DELETE FROM meta WHERE key LIKE 'conflict:%';
-             DELETE FROM person_alias;",
+             DELETE FROM person_alias;
+             UPDATE signer SET notes = NULL;",
         )?;
         for narrower in ConsentAudience::ALL_AUDIENCES.into_iter().filter(|one| *one < audience) {
             let sql = "DELETE FROM person_attribute WHERE audience = ?1";

@@ -76,7 +76,7 @@ impl RowIdColumn {
         let numbers: Vec<Option<i64>> = ids.iter().map(|id| id.parse().ok()).collect();
         let is_consecutive = numbers
             .windows(2)
-            .all(|pair| pair[0].is_some() && pair[0].map(|id| id + 1) == pair[1]);
+            .all(|pair| pair[0].is_some() && pair[0].and_then(|id| id.checked_add(1)) == pair[1]);
         (is_complete && !is_consecutive).then(|| Self {
             column,
             title: table.columns[column].title.clone(),

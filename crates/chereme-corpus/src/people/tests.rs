@@ -172,6 +172,7 @@ fn attributes_are_queried_and_leave_only_for_whom_they_may() {
     let change = PersonChange {
         attributes: [("region".to_owned(), "north".to_owned())].into(),
         audience: Some(ConsentAudience::Research),
+        notes: Some(Some("met at the club".into())),
         ..PersonChange::default()
     };
     corpus.change_person(&named("Lovelace"), &change).expect("changed");
@@ -220,7 +221,7 @@ fn attributes_are_queried_and_leave_only_for_whom_they_may() {
         .expect("written");
     for entry in walk_files(&copy) {
         let bytes = std::fs::read(&entry).expect("bytes");
-        for secret in ["Lovelace", "north", "south"] {
+        for secret in ["Lovelace", "north", "south", "the club"] {
             let is_there = bytes.windows(secret.len()).any(|window| window == secret.as_bytes());
             assert!(!is_there, "{secret} in {}", entry.display());
         }
@@ -265,4 +266,87 @@ fn a_name_belongs_to_one_person() {
     let row = corpus.change_person(&named("Bo"), &renamed).expect("renamed");
     assert_eq!((row.name.as_str(), row.aliases), ("Boris", vec!["Bo".to_owned()]));
     assert_eq!(row.participant_tiers, 1);
+}
+
+#[test]
+fn a_consent_that_comes_to_hold_for_more_is_said() {
+    let (_folder, mut corpus) = dialogue_corpus();
+    let agreed = ConsentChange {
+        movement: Some(Some(ConsentAudience::Public)),
+        ..ConsentChange::default()
+    };
+    corpus
+        .change_consent(&[CorpusAddress::Signer(named("Ada"))], &agreed)
+        .expect("agreed");
+    let report = corpus.unite_people(&[named("A.L.")], &named("Ada")).expect("one");
+    assert_eq!((report.is_consent_extended, report.is_consent_narrower), (true, false));
+    let nothing_said = corpus.unite_people(&[named("anno")], &named("Bo")).expect("one");
+    assert_eq!(
+        (nothing_said.is_consent_extended, nothing_said.is_consent_narrower),
+        (false, false)
+    );
+}
+
+#[test]
+fn the_preferred_annotator_is_preferred_under_every_name() {
+    let (_folder, mut corpus) = dialogue_corpus();
+    corpus.prefer_annotator(Some("anno")).expect("preferred");
+    let preferred = |corpus: &Corpus| tokens::preferred_annotator(corpus.store.read_connection()).expect("read");
+    let renamed = PersonChange {
+        name: Some("Anna".into()),
+        ..PersonChange::default()
+    };
+    corpus.change_person(&named("anno"), &renamed).expect("renamed");
+    assert_eq!(preferred(&corpus).as_deref(), Some("Anna"));
+    corpus.unite_people(&[named("Anna")], &named("Bo")).expect("one");
+    assert_eq!(preferred(&corpus).as_deref(), Some("Bo"));
+    let by_bo = corpus.list_people().expect("people");
+    assert!(
+        by_bo
+            .iter()
+            .any(|person| person.name == "Bo" && person.annotator_tiers == 3)
+    );
+}
+
+#[test]
+fn who_annotated_others_is_not_forgotten_in_silence() {
+    let (_folder, mut corpus) = dialogue_corpus();
+    let progress = &mut crate::ProgressReceiver::silent_progress();
+    let error = corpus
+        .forget_signer(&named("anno"), true, progress)
+        .expect_err("needed");
+    assert!(
+        error.to_string().contains("annotated recordings of others: dialogue"),
+        "{error}"
+    );
+}
+
+#[test]
+fn people_come_along_when_copies_are_merged() {
+    let (folder, mut mine) = dialogue_corpus();
+    let copy = folder.path().join("copy.chereme");
+    let options = ExportOptions {
+        with_history: true,
+        ..ExportOptions::default()
+    };
+    let progress = &mut crate::ProgressReceiver::silent_progress();
+    let shared = folder.path().join("shared");
+    mine.export_corpus(&ExportWhat::All, &shared, &options, progress)
+        .expect("written");
+    std::fs::copy(shared.join("corpus.chereme"), &copy).expect("copied");
+    let mut theirs = Corpus::open_corpus(&copy, "other").expect("opened");
+    theirs.unite_people(&[named("A.L.")], &named("Ada")).expect("one");
+    let change = PersonChange {
+        attributes: [("region".to_owned(), "north".to_owned())].into(),
+        ..PersonChange::default()
+    };
+    theirs.change_person(&named("Ada"), &change).expect("changed");
+    drop(theirs);
+    let report = mine.merge_corpus(&copy, None, progress).expect("merged");
+    assert!(report.conflicts.is_empty(), "{report:?}");
+    let ada = person(&mine, "Ada");
+    assert_eq!(ada.aliases, ["A.L."]);
+    assert_eq!(ada.participant_tiers, 2);
+    assert_eq!(ada.attributes[0].text, "north");
+    assert_eq!(mine.list_people().expect("people").len(), 3);
 }

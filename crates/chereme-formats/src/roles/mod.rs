@@ -187,7 +187,7 @@ fn share_track_role(tiers: &[TierRoleEvidence<'_>], guesses: &mut [TierGuess]) {
                 }
             }
         }
-        // A role that a person stated stays where it is.
+        // A role that a person stated is kept.
         if !tiers[track].is_track || guesses[track].confidence >= 1.0 {
             continue;
         }

@@ -156,7 +156,7 @@ fn split_lexique_line<'l>(line: &'l str, number: usize, columns: &LexiqueColumns
     })
 }
 
-/// Splits a line at tabs, commas or semicolons, else at blanks; comments (`#`, `;;;`) and lines without phones are none.
+/// Splits a line at tabs, commas or semicolons, else at blanks; comments (`#`, `;;;`) and lines without phones give nothing.
 fn split_dictionary_line(line: &str, number: usize) -> Option<DictionaryLine<'_>> {
     let line = line.trim();
     if line.starts_with('#') || line.starts_with(";;;") {

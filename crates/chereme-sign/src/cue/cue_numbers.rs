@@ -107,10 +107,14 @@ pub(super) fn read_french_number(rest: &[char]) -> (usize, Option<Vec<String>>) 
     with_unit(rest, length, words)
 }
 
+/// Telephone numbers, dates and fractions are shorter than this, in letters.
+const MAX_PARTED_LETTERS: usize = 32;
+
 /// Reads a telephone number (*01 23 45 67 89*), a date (*14/07/1789*) or a fraction (*3/4*).
 fn read_parted_number(rest: &[char]) -> Option<(usize, Option<Vec<String>>)> {
     let digits = rest
         .iter()
+        .take(MAX_PARTED_LETTERS)
         .take_while(|letter| letter.is_ascii_digit() || " ./\u{a0}\u{202f}".contains(**letter));
     let text: String = digits.collect();
     let text = text.trim_end_matches(|letter: char| !letter.is_ascii_digit());

@@ -376,7 +376,7 @@ impl SpellingRules {
             };
             let of_letter = self.by_letter.get(&letter);
             let Some(rule) = of_letter.and_then(|rules| rules.iter().find(fits)) else {
-                // An apostrophe only parts words; a letter with rules of which none fits is silent.
+                // An apostrophe only parts words; a letter is silent if it has rules and no rule fits.
                 if of_letter.is_none() && letter != '\'' {
                     findings.push(CueFinding::UnknownLetter {
                         letter,

@@ -36,7 +36,7 @@ pub(super) fn split_written_text(text: &str) -> Vec<WrittenPart> {
             let is_of_word = at > 0 && letters[at - 1].is_alphanumeric();
             parts.push(WrittenPart::Phones(phones, is_of_word));
             at += length;
-        } else if let Some((length, words)) = roman_number(rest).filter(|_| starts_word(&letters, at)) {
+        } else if let Some((length, words)) = starts_word(&letters, at).then(|| roman_number(rest)).flatten() {
             parts.extend(words.into_iter().map(|word| WrittenPart::Word(word, false)));
             at += length;
         } else if letter.is_numeric() {
@@ -178,12 +178,16 @@ fn dotted(rest: &[char]) -> Option<(usize, String)> {
     (count > 1).then_some((2 * count, capitals))
 }
 
+/// The longest phones in braces, in letters.
+const MAX_STATED_LETTERS: usize = 256;
+
 /// Returns phones in braces, in SAMPA or IPA, apart or together, and their length in the text.
 fn stated_phones(rest: &[char]) -> Option<(usize, Vec<String>)> {
     if rest.first() != Some(&'{') {
         return None;
     }
-    let length = rest.iter().position(|letter| *letter == '}')?;
+    // Without a limit a text of opening braces alone would be searched whole for each of them.
+    let length = rest.iter().take(MAX_STATED_LETTERS).position(|letter| *letter == '}')?;
     let inner: String = rest[1..length].iter().collect();
     let labels: Vec<&str> = inner.split_whitespace().collect();
     let code = find_cue_code("french")?;

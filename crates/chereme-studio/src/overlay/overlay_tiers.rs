@@ -294,7 +294,7 @@ fn show_work(ui: &mut Ui, seen: &PaneInput<'_>, form: &mut TierRoundForm) {
     });
 }
 
-/// Shows the properties of new tiers, or those that tiers get; the first choice of a list leaves what is there.
+/// Shows the properties of new tiers, or those that tiers get; the first choice of a list changes nothing.
 fn show_tier_properties(ui: &mut Ui, seen: &PaneInput<'_>, form: &mut TierRoundForm) {
     let is_change = form.kind == RoundWorkKind::Change;
     let kept = || (None, seen.say_text(words::KEPT).to_owned());

@@ -168,7 +168,7 @@ impl TierRoundForm {
         Some(tier)
     }
 
-    /// Returns the changed properties; `None` if there are none.
+    /// Returns the changed properties; `None` if nothing changes.
     fn tier_change(&self) -> Option<TierPropertyChange> {
         let role = self.role.as_deref().map(str::parse).transpose().ok()?;
         let change = TierPropertyChange {

@@ -32,7 +32,7 @@ pub(super) fn show_preview_hand(ui: &Ui, rect: Rect, dark: bool, target: &HandAn
     });
     let mut worn = shared.lock().unwrap_or_else(PoisonError::into_inner);
     let target = target.to_array();
-    // After a pause the hand goes on from where it was instead of jumping.
+    // After a pause the hand continues its movement instead of jumping.
     let step = f64::from(ui.input(|input| input.stable_dt)).min(0.1);
     let (angles, moved) = turn_hand_angles(worn.angles, target, step);
     let pixels = rect.size().min_elem() * ui.ctx().pixels_per_point();

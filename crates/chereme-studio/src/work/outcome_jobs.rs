@@ -55,7 +55,7 @@ pub(crate) enum WorkOutcome {
     Found(SearchAnswer),
     /// The values of a field were counted.
     Tallied(ValueTally),
-    /// What work on the tiers of many recordings did, or would do.
+    /// The changes that work on the tiers of many recordings made, or would make.
     Toured(TierRoundReport),
     /// The signs of a lexicon were measured one by one.
     SignsMeasured(Arc<SignMeasures>),

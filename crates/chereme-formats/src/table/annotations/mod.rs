@@ -110,7 +110,7 @@ pub fn read_change_table(
         Some(columns) => {
             let cells = std::mem::take(&mut table.header);
             let line = table.header_line;
-            // What was taken for titles is the first annotation.
+            // The row taken for titles is the first annotation.
             table.rows.insert(0, RawRow { line, cells });
             findings.add_limited_note(
                 "no titles",

@@ -277,7 +277,7 @@ pub(super) fn show_signer_details(ui: &mut Ui, seen: &PaneInput<'_>, row: &Signe
     });
 }
 
-/// Shows the other names of a person, what is said of them, and with whom they can be made one.
+/// Shows the other names and the attributes of a person, and a field that makes them one with somebody else.
 fn show_person_details(ui: &mut Ui, seen: &PaneInput<'_>, person: &PersonContents, out: &mut CommandOutbox) {
     let change = |out: &mut CommandOutbox, change: PersonChange| {
         out.request_work(recordings_jobs::change_person(RowName::Number(person.id), change));
@@ -353,14 +353,14 @@ fn listed_parts(text: &str) -> impl Iterator<Item = &str> {
     text.split(';').map(str::trim).filter(|part| !part.is_empty())
 }
 
-/// Returns what is said of a person in one line: `region=north; age=34`.
+/// Returns the attributes of a person in one line: `region=north; age=34`.
 fn attributes_line(attributes: &[PersonAttribute]) -> String {
     let each = attributes.iter();
     let parts = each.map(|attribute| format!("{}={}", attribute.name, attribute.text));
     parts.collect::<Vec<_>>().join("; ")
 }
 
-/// Returns what a typed line says differently from before; what it leaves out has an empty text.
+/// Returns the attributes that a typed line changes; those that it leaves out have an empty text.
 fn changed_attributes(attributes: &[PersonAttribute], line: &str) -> BTreeMap<String, String> {
     let mut changed: BTreeMap<String, String> = listed_parts(line)
         .map(|part| part.split_once('=').unwrap_or((part, "")))

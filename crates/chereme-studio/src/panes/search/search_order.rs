@@ -64,7 +64,7 @@ fn choose_attribute(ui: &mut Ui, seen: &PaneInput<'_>, now: Option<&str>) -> Opt
     let mut chosen = None;
     let area = ScrollArea::vertical().max_height(ATTRIBUTE_LIST_HEIGHT_POINTS);
     area.show(ui, |ui| {
-        // What measures were made by is their definition, the same for all signs.
+        // The origin of the measures is the same for all signs, and orders nothing.
         let listed = seen.snapshot.overview.attributes.iter();
         for name in listed.filter(|name| *name != "measure.origin") {
             let label = ui.selectable_label(now == Some(name), attribute_name_text(name, seen.language));
