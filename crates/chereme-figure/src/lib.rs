@@ -73,7 +73,7 @@ pub mod writer;
 
 pub use animation::{AnimationOptions, ClipAnimation, PictureSequence, write_gif};
 pub use body::SignerBody;
-pub use body::portable::{BoneMotion, PortableBody, PortableBone, PortableVertex};
+pub use body::portable::{BoneMotion, FaceMorph, PortableBody, PortableBone, PortableVertex};
 pub use chart::{ChartOptions, alignment_picture};
 pub use error::{ANIMATION_SPEEDS, FigureError, MAX_FRAMES};
 pub use faces::face_sheet;
@@ -85,4 +85,4 @@ pub use points_film::{PointsAnimation, PointsOptions};
 pub use sheet::{PictureProgress, SheetFrames, SheetOptions, clip_thumbnail, contact_sheet};
 pub use strip::{AnimationCaption, AnimationStrip};
 pub use view::{ClipFraming, FigureView, SigningReach, active_signing_frames, has_hand_up, stroke_frame};
-pub use writer::write_png;
+pub use writer::{write_palette_png, write_png};

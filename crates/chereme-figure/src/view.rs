@@ -259,6 +259,25 @@ impl ClipFraming {
         }
     }
 
+    /// Returns the space together with that of usual signing before the chest, so that pictures of most signs show one body
+    /// in one size. A skeleton without arms keeps its space.
+    #[must_use]
+    pub fn with_usual_signing_room(self, pose: &ModelPose, anatomy: &BodyAnatomy) -> Self {
+        let arm_lengths = BodySide::BOTH_SIDES.map(|side| anatomy.arm_chain(side).map(|arm| arm_length(pose, arm)));
+        let longest_arm = arm_lengths.into_iter().flatten().reduce(f32::max);
+        let (Some(chest), Some(longest_arm)) = (anatomy.part_joint(BodyPart::Chest), longest_arm) else {
+            return self;
+        };
+        let middle = self.relative_joint_position(pose, chest, anatomy);
+        // Hands beside the shoulders are two thirds of an arm away from the middle, and so are hands before the chest.
+        let room = Vec3::new(0.66, 0.0, 0.66) * longest_arm;
+        Self {
+            low: self.low.min(middle - room),
+            high: self.high.max(middle + room),
+            ..self
+        }
+    }
+
     /// Returns the camera of a view for a picture whose width is `aspect` times its height; the hand views look at that
     /// hand in `pose`, the face view at the head. A picture too narrow for the space shows more room above the head,
     /// but no legs.

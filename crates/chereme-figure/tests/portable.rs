@@ -1,8 +1,10 @@
 //! The body for players elsewhere moves as the body itself does.
 
+use std::collections::BTreeSet;
+
 use chereme_figure::SignerBody;
-use chereme_motion::BodyAnatomy;
 use chereme_motion::glam::Vec3;
+use chereme_motion::{BodyAnatomy, FacePosture};
 
 #[path = "../examples/common/signer.rs"]
 mod signer;
@@ -28,4 +30,70 @@ fn a_portable_body_moves_as_the_body_does() {
             assert!(nearest < 2e-4, "frame {frame}: {nearest} m");
         }
     }
+}
+
+#[test]
+fn the_changes_of_a_portable_face_add_up_to_expressions() {
+    let clip = signer::handshapes().expect("the example's clip");
+    let anatomy = BodyAnatomy::detect_anatomy(clip.clip_skeleton());
+    let body = SignerBody::new(clip.clip_skeleton(), &anatomy);
+    let portable = body.to_portable_body(clip.clip_skeleton()).expect("two arms");
+    let morphs = body.face_morphs(&portable);
+    let numbers: BTreeSet<usize> = morphs.iter().map(|morph| morph.number).collect();
+    assert_eq!(numbers.len(), FacePosture::FACE_NUMBER_COUNT, "{numbers:?}");
+    let pose = clip.model_pose(0);
+    let keyed = body.bone_motions(&portable, &pose);
+    let rest = body.posed_mesh(&pose);
+    let moving: BTreeSet<usize> = morphs.iter().flat_map(|morph| morph.vertices.iter().copied()).collect();
+    let at_rest = portable.posed_vertices(&keyed);
+    // The vertex of the body's own mesh for each one of the portable face.
+    let own = |vertex: usize| {
+        let distance = |index: &usize| rest.vertices[*index].position.distance(at_rest[vertex]);
+        (0..rest.vertices.len())
+            .min_by(|a, b| distance(a).total_cmp(&distance(b)))
+            .expect("a mesh")
+    };
+    let own: Vec<(usize, usize)> = moving.iter().map(|vertex| (*vertex, own(*vertex))).collect();
+    let distances = |face: &FacePosture| {
+        let mut shaped = portable.clone();
+        for morph in &morphs {
+            let share = morph.morph_share(face) as f32;
+            for (vertex, offset) in morph.vertices.iter().zip(&morph.offsets) {
+                shaped.vertices[*vertex].place += *offset * share;
+            }
+        }
+        let mut mesh = body.posed_mesh(&pose);
+        body.apply_face_expression(&pose, face, &mut mesh);
+        let shaped = shaped.posed_vertices(&keyed);
+        let distance = |(vertex, own): &(usize, usize)| shaped[*vertex].distance(mesh.vertices[*own].position);
+        let mut all: Vec<f32> = own.iter().map(distance).collect();
+        all.sort_by(f32::total_cmp);
+        all
+    };
+    for morph in &morphs {
+        let mut numbers = [0.0; FacePosture::FACE_NUMBER_COUNT];
+        if FacePosture::FACE_NUMBER_NAMES[morph.number] == "tongue_left" {
+            numbers[FacePosture::face_number_position("tongue_out").expect("a number")] = 1.0;
+        }
+        numbers[morph.number] = if morph.is_negative { -1.0 } else { 1.0 };
+        let all = distances(&FacePosture::from_numbers(numbers));
+        // Vertices that lie upon each other may be taken for one another: a few in a hundred.
+        let most = all[all.len() * 97 / 100];
+        assert!(
+            most < 3e-4,
+            "{}: {most} m",
+            FacePosture::FACE_NUMBER_NAMES[morph.number]
+        );
+    }
+    let question = FacePosture {
+        brows: [0.8, 0.8],
+        lids: [-0.4, -0.4],
+        jaw: 0.3,
+        parted: 0.4,
+        wide: -0.5,
+        ..FacePosture::default()
+    };
+    let all = distances(&question);
+    let [middle, most] = [50, 97].map(|share| all[all.len() * share / 100]);
+    assert!(middle < 1e-3 && most < 6e-3, "{middle} m, {most} m");
 }

@@ -1,9 +1,10 @@
 //! A body for players elsewhere: a surface in bind space, and the few rotations that move it.
 //!
 //! A player computes the bones in order, from the motions of the [`PortableBone::Keyed`] ones, and moves each vertex by the
-//! weighted mean of its bones. The surface is that of [`SignerBody`] without legs, and with its face at rest.
+//! weighted mean of its bones. The surface is that of [`SignerBody`] without legs, and with its face at rest; the
+//! [`FaceMorph`]s move it to expressions.
 
-use chereme_motion::{ModelPose, Skeleton};
+use chereme_motion::{FacePosture, ModelPose, Skeleton};
 use glam::{Quat, Vec3};
 
 use super::body_shape::{posed_joint_position, posed_joint_rotation};
@@ -24,7 +25,34 @@ pub struct PortableBody {
     pub bones: Vec<PortableBone>,
     /// For each keyed bone, the source of its motion.
     sources: Vec<BoneMotionSource>,
+    /// The first vertex of the head, whose vertices follow each other.
+    first_head_vertex: Option<usize>,
 }
+
+/// The change of a portable body's face by one number of a [`FacePosture`], in proportion to it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FaceMorph {
+    /// The place of the number in [`FacePosture::FACE_NUMBER_NAMES`].
+    pub number: usize,
+    /// Whether it is the change for negative values: it is whole at -1 instead of 1.
+    pub is_negative: bool,
+    /// The vertices that move, in rising order.
+    pub vertices: Vec<usize>,
+    /// How far each of them moves in bind space, in metres.
+    pub offsets: Vec<Vec3>,
+}
+
+impl FaceMorph {
+    /// Returns the share of this change that a face has.
+    #[must_use]
+    pub fn morph_share(&self, face: &FacePosture) -> f64 {
+        let value = face.face_numbers()[self.number];
+        (if self.is_negative { -value } else { value }).clamp(0.0, 1.0)
+    }
+}
+
+/// Shorter ways of a vertex are left out of a [`FaceMorph`], in metres.
+const LEAST_MORPH_OFFSET_METRES: f32 = 2.5e-4;
 
 /// A vertex of a portable body.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -103,6 +131,7 @@ impl SignerBody {
             triangles: Vec::new(),
             bones: Vec::new(),
             sources: Vec::new(),
+            first_head_vertex: None,
         };
         for index in 0..skin.rig.followers.len() {
             let bone = follower_to_bone(&skin.rig, index, skeleton);
@@ -135,6 +164,10 @@ impl SignerBody {
                 at: joint_place,
             });
             out.sources.push(BoneMotionSource::Joint(joint));
+            let face = self.face.as_ref();
+            if face.is_some_and(|face| face.vertices.start == element.element_vertex_range().start) {
+                out.first_head_vertex = Some(out.vertices.len());
+            }
             for (vertex, point) in element.element_vertex_range().zip(points) {
                 places[vertex] = Some(out.vertices.len() as u32);
                 out.vertices.push(PortableVertex {
@@ -163,6 +196,47 @@ impl SignerBody {
                 weights: bound.weights,
             });
         }
+    }
+
+    /// Returns the changes of the face of `portable`, made by [`portable`](Self::to_portable_body): the sum of their shares is
+    /// close to an expression, and exact for one number at its end.
+    #[must_use]
+    pub fn face_morphs(&self, portable: &PortableBody) -> Vec<FaceMorph> {
+        let (Some(known), Some(first_head_vertex)) = (&self.face, portable.first_head_vertex) else {
+            return Vec::new();
+        };
+        let shape = |face: &FacePosture| known.head.head_mesh(&known.palette, face).vertices;
+        let tongue_numbers = ["tongue_out", "tongue_left"].map(FacePosture::face_number_position);
+        let ends = (0..FacePosture::FACE_NUMBER_COUNT).flat_map(|number| [(number, false), (number, true)]);
+        let morphs = ends.filter_map(|(number, is_negative)| {
+            let mut numbers = [0.0; FacePosture::FACE_NUMBER_COUNT];
+            if let [Some(out), Some(aside)] = tongue_numbers
+                && aside == number
+            {
+                // A tongue that is not out does not move to a side.
+                numbers[out] = 1.0;
+            }
+            let rest = shape(&FacePosture::from_numbers(numbers));
+            numbers[number] = if is_negative { -1.0 } else { 1.0 };
+            let moved = shape(&FacePosture::from_numbers(numbers));
+            let offsets = moved
+                .iter()
+                .zip(&rest)
+                .map(|(end, start)| end.position - start.position);
+            let moving = offsets
+                .enumerate()
+                .filter(|(_, offset)| offset.length() > LEAST_MORPH_OFFSET_METRES);
+            let (vertices, offsets): (Vec<usize>, Vec<Vec3>) = moving
+                .map(|(vertex, offset)| (first_head_vertex + vertex, offset))
+                .unzip();
+            (!vertices.is_empty()).then_some(FaceMorph {
+                number,
+                is_negative,
+                vertices,
+                offsets,
+            })
+        });
+        morphs.collect()
     }
 
     /// Returns the motions of the keyed bones of `portable`, made by [`portable`](Self::to_portable_body), in `pose`.
