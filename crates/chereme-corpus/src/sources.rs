@@ -17,6 +17,8 @@ use chereme_sign::{ComponentReading, SignComponent, SignerHandedness};
 use rusqlite::Connection;
 use sha2::{Digest, Sha256};
 
+pub(crate) use sources_language::DEFAULT_LANGUAGE_NAME;
+
 use crate::IndexedStore;
 use crate::address::{self, CorpusAddress, RecordingStretch, RowName};
 use crate::curves;

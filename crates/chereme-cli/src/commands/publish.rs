@@ -12,9 +12,13 @@ use crate::output::{CommandOutput, with_progress_bar};
 /// Publish a dictionary of signs: a folder of web pages that works without a server
 ///
 /// People search by word, by drawn handshape, by place on the body, by movement and by one or two hands; signs that
-/// nearly fit follow those that do. Each sign has a page with its movement, which can be slowed down, stepped, mirrored
-/// and seen from three sides, its values in words, its minimal pairs and its terms of use. The folder opens by a double
-/// click and from any web server, in English and French, and asks no other computer for anything.
+/// nearly fit follow those that do. Signs move in the list as the reader chooses. Each has a page with its movement and
+/// face, which can be slowed down, scrubbed, turned, mirrored and saved as a film, its words, sentences and values, its
+/// minimal pairs side by side and its terms of use. The folder opens by a double click and from any web server, in English,
+/// French and German, and asks no other computer for anything.
+///
+/// Signs that have a notation and no movement move on the program's own body, and their pages say so; --no-animation
+/// leaves them as they are.
 ///
 /// From a web server (https) a browser keeps a copy of the search and of the signs that were opened, or of all signs if
 /// somebody wants that, so that the dictionary works without a connection. With a connection, each page asks first
@@ -33,8 +37,9 @@ use crate::output::{CommandOutput, with_progress_bar};
 /// `--json` gives "page", "signs", "moving", "signers", "files", "bytes", "terms" (signs by terms of use), "undrawn"
 /// (handshapes without a picture), "namesakes" (handshapes with the picture of the usual one of that name), "armless"
 /// (signs whose movement has no arms to show), "cut" (signs whose movement is cut), "own_body", "apart" (signs with a touch
-/// that is lost on that body), "without_pairs" (whether there are too many minimal pairs) and "left_out", each with "why",
-/// "movement" (whether only that was left out), "signs", "first" and "remedy".
+/// that is lost on that body), "without_pairs" (whether there are too many minimal pairs), "animated" (signs that move by
+/// their notation), "unanimated" (those whose notation cannot be performed) and "left_out", each with "why", "movement"
+/// (whether only that was left out), "signs", "first" and "remedy".
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -67,6 +72,9 @@ pub(crate) struct PublishArgs {
     /// Play every sign on the program's own body, not on that of its signer
     #[arg(long)]
     own_body: bool,
+    /// Leave signs that have a notation and no movement without movement
+    #[arg(long)]
+    no_animation: bool,
 }
 
 pub(super) fn run(cli: &CommandLine, args: &PublishArgs, output: &mut CommandOutput) -> Result<()> {
@@ -79,6 +87,7 @@ pub(super) fn run(cli: &CommandLine, args: &PublishArgs, output: &mut CommandOut
         contact: args.contact.clone(),
         notes: args.notes,
         own_body: args.own_body,
+        without_animation: args.no_animation,
     };
     let done = with_progress_bar(|progress| corpus.publish_dictionary(&args.to, &options, progress))?;
     output.filled_line(
@@ -93,6 +102,15 @@ pub(super) fn run(cli: &CommandLine, args: &PublishArgs, output: &mut CommandOut
         "signers: {n}; files: {files}, {size} KB",
         &[&done.signers, &done.files, &done.bytes.div_ceil(1024)],
     )?;
+    if done.animated > 0 {
+        output.filled_line("movement generated from notation: {n}", &[&done.animated])?;
+    }
+    if !done.unanimated.is_empty() {
+        output.filled_line(
+            "without movement, as their notation cannot be performed: {glosses}",
+            &[&done.unanimated.join(", ")],
+        )?;
+    }
     for (terms, signs) in &done.terms {
         output.filled_line("terms {terms}: {n}", &[&format_args!("{:?}", terms), &signs])?;
     }

@@ -31,6 +31,40 @@ pub(crate) struct LexiconMovement {
     pub(crate) value: String,
 }
 
+/// A translation that was annotated while a token is signed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct AnnotatedTranslation {
+    /// The language of its tier; empty if the tier states none.
+    pub(crate) language: String,
+    pub(crate) text: String,
+    /// The number of other signs during it: with any, it is a sentence and no word.
+    pub(crate) other_signs: usize,
+}
+
+/// Returns the translations of the signer of a token that hold for at least half of it, by tier and time.
+pub(crate) fn translations_over_token(connection: &Connection, token: i64) -> CorpusResult<Vec<AnnotatedTranslation>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT ifnull(i.language, ''), a.value,
+                (SELECT count(*) FROM token o WHERE o.recording_id = t.recording_id AND o.sign_id <> t.sign_id
+                   AND o.start_us < a.end_us AND o.end_us > a.start_us)
+         FROM token t LEFT JOIN annotation own ON own.id = t.annotation_id LEFT JOIN tier g ON g.id = own.tier_id
+         JOIN tier i ON i.recording_id = t.recording_id AND i.role = 'translation'
+           AND ifnull(i.participant, '') IN ('', ifnull(g.participant, ''))
+         JOIN annotation a ON a.tier_id = i.id AND a.state = 'value' AND a.value <> ''
+         WHERE t.id = ?1
+           AND 2 * (min(a.end_us, t.end_us) - max(a.start_us, t.start_us)) >= t.end_us - t.start_us
+         ORDER BY i.position, a.start_us, a.id",
+    )?;
+    let rows = statement.query_map([token], |row| {
+        Ok(AnnotatedTranslation {
+            language: row.get(0)?,
+            text: row.get(1)?,
+            other_signs: row.get::<_, i64>(2)?.unsigned_abs() as usize,
+        })
+    })?;
+    Ok(rows.collect::<rusqlite::Result<_>>()?)
+}
+
 /// Returns up to `most` annotated movements with their size, manner and phases, in captured recordings,
 /// by recording and time.
 ///

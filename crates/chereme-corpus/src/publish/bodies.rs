@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use chereme_compose::{StepError, on_body};
-use chereme_figure::raster::FigureStyle;
-use chereme_figure::{FigurePalette, PaperTheme, PortableBody, SignerBody, clip_thumbnail};
-use chereme_motion::{BodyAnatomy, Clip, Skeleton};
+use chereme_figure::raster::{FigureRaster, FigureStyle};
+use chereme_figure::{FigurePalette, FigureView, PaperTheme, PortableBody, SignerBody, stroke_frame};
+use chereme_motion::{BodyAnatomy, Clip, FacePosture, Skeleton};
 use chereme_sign::SignerHandedness;
 use serde_json::json;
 
@@ -16,8 +16,10 @@ use super::png;
 use super::publish_motion;
 use crate::Corpus;
 use crate::address::CorpusAddress;
+use crate::animate::NotationStaging;
 use crate::error::{CorpusError, CorpusResult};
-use crate::starter::built_in_body;
+use crate::sources::DEFAULT_LANGUAGE_NAME;
+use crate::starter::{OWN_BODY, built_in_body};
 use crate::tokens::recording_handedness;
 
 /// The bodies of a dictionary.
@@ -33,6 +35,12 @@ struct WrittenBody {
     name: String,
     body: SignerBody,
     portable: PortableBody,
+}
+
+/// Movement with the face in each frame, if there is one.
+struct FacedClip {
+    clip: Clip,
+    faces: Vec<FacePosture>,
 }
 
 /// A sign whose movement was written.
@@ -61,38 +69,85 @@ impl DictionaryBodies {
         })
     }
 
-    /// Writes the movement and the still picture of a sign; nothing if its skeleton has no arms or its movement no
-    /// frames.
-    pub(super) fn write_sign_body(
+    /// Writes the movement of a sign that was captured or stored as one, and its still picture; nothing if its skeleton
+    /// has no arms or its movement no frames.
+    pub(super) fn write_stored_sign(
         &mut self,
         corpus: &Corpus,
         folder: &mut PublicationFolder,
         entry: &DictionaryEntry,
     ) -> CorpusResult<Option<ShownSign>> {
         let moving = corpus.usable_movement(&CorpusAddress::Token(entry.token.id))?;
-        let (clip, is_cut) = publish_motion::limit_published_frames(&moving.clip)?;
+        let handedness = recording_handedness(corpus.store.read_connection(), &moving.stretch.recording)?;
+        let faces = FacedClip {
+            clip: moving.clip,
+            faces: moving.faces,
+        };
+        self.write_sign_movement(folder, &entry.name, faces, Arc::new(moving.anatomy), handedness)
+    }
+
+    /// Writes the movement that the notation of a token is performed as on the program's own body, and its still picture.
+    ///
+    /// # Errors
+    /// Fails if the notation cannot be animated.
+    pub(super) fn write_notated_sign(
+        &mut self,
+        corpus: &mut Corpus,
+        folder: &mut PublicationFolder,
+        entry: &DictionaryEntry,
+        token: i64,
+    ) -> CorpusResult<Option<ShownSign>> {
+        // Neither the body nor the manner is then that of a signer, whom somebody would have to ask.
+        let staging = NotationStaging {
+            signer: Some(OWN_BODY),
+            language: Some(DEFAULT_LANGUAGE_NAME),
+        };
+        let made = corpus.animate_notation(&[&format!("token:{token}")], &staging, None)?;
+        let faces = FacedClip {
+            clip: made.clip,
+            faces: made.faces,
+        };
+        self.write_sign_movement(folder, &entry.name, faces, made.anatomy, made.handedness)
+    }
+
+    fn write_sign_movement(
+        &mut self,
+        folder: &mut PublicationFolder,
+        name: &str,
+        movement: FacedClip,
+        anatomy: Arc<BodyAnatomy>,
+        handedness: SignerHandedness,
+    ) -> CorpusResult<Option<ShownSign>> {
+        let (clip, is_cut) = publish_motion::limit_published_frames(&movement.clip)?;
         if clip.clip_frame_count() == 0 {
             return Ok(None);
         }
-        let handedness = recording_handedness(corpus.store.read_connection(), &moving.stretch.recording)?;
-        let Some((clip, anatomy, is_apart)) = self.place_on_body(clip, Arc::new(moving.anatomy), handedness)? else {
+        let faces = publish_motion::published_faces(&clip, &movement.faces, movement.clip.clip_frame_rate());
+        let Some((clip, anatomy, is_apart)) = self.place_on_body(clip, anatomy, handedness)? else {
             return Ok(None);
         };
         let Some(at) = self.find_dictionary_body(folder, &clip, &anatomy)? else {
             return Ok(None);
         };
         let of = &self.written[at];
-        let coded = publish_motion::coded_motion_json(&clip, &anatomy, &of.body, &of.portable);
-        let key = json!(entry.name);
+        let coded = publish_motion::coded_motion_json(&clip, &faces, &anatomy, &of.body, &of.portable);
+        let key = json!(name);
         let text = format!("CH.motion({key}, {coded});\n");
-        folder.write_published_file(&format!("data/motion/{}.js", entry.name), text.as_bytes())?;
-        let style = FigureStyle {
-            theme: PaperTheme::Light,
-            ..FigureStyle::default()
-        };
-        let still = clip_thumbnail(&clip, &anatomy, STILL_PICTURE_SIZE_PX, &style)
-            .map_err(|error| CorpusError::from_wrong_message(error.to_string()))?;
-        folder.write_published_file(&format!("sign/{}/still.png", entry.name), &png(&still)?)?;
+        folder.write_published_file(&format!("data/motion/{name}.js"), text.as_bytes())?;
+        if let Some((framing, pose)) = publish_motion::shared_framing(&clip, &anatomy) {
+            let style = FigureStyle {
+                theme: PaperTheme::Light,
+                ..FigureStyle::default()
+            };
+            let [width, height] = STILL_PICTURE_SIZE_PX;
+            let aspect = width as f32 / height as f32;
+            let camera = framing.framing_camera(FigureView::Addressee, aspect, &pose, &anatomy);
+            let mut mesh = of.body.posed_mesh(&pose);
+            let stroke = stroke_frame(&clip, &anatomy).min(faces.len() - 1);
+            of.body.apply_face_expression(&pose, &faces[stroke], &mut mesh);
+            let still = FigureRaster::default().draw_mesh_picture(&mesh, &camera, STILL_PICTURE_SIZE_PX, &style);
+            folder.write_published_file(&format!("sign/{name}/still.png"), &png(&still)?)?;
+        }
         Ok(Some(ShownSign {
             body: of.name.clone(),
             is_cut,
@@ -138,6 +193,10 @@ impl DictionaryBodies {
         let surface = publish_motion::body_surface_json(&portable);
         let text = format!("CH.body(\"{name}\", {surface});\n");
         folder.write_published_file(&format!("data/body/{name}.js"), text.as_bytes())?;
+        // Only signs with a face need it, and it is as large as the body.
+        let morphs = publish_motion::face_morphs_json(&body.face_morphs(&portable));
+        let text = format!("CH.face(\"{name}\", {morphs});\n");
+        folder.write_published_file(&format!("data/body/{name}-face.js"), text.as_bytes())?;
         self.written.push(WrittenBody {
             skeleton: skeleton.clone(),
             name,

@@ -32,6 +32,55 @@ pub(super) fn push_row(out: &mut Vec<u8>, row: &[i64]) {
     row.iter().for_each(|value| push_coded_number(out, *value));
 }
 
+/// The order of a row of corners: its numbers lie on straight lines between them.
+const CORNER_ROW_ORDER: u8 = 3;
+/// The most numbers between two corners: the search for the next one takes the square of it.
+const MAX_CORNER_DISTANCE: usize = 64;
+
+/// Appends a row of numbers in the fewest bytes, none of them farther than `tolerance` from its own: as [`push_row`] does,
+/// or as corners, each with its distance from the one before and the difference from it.
+pub(super) fn push_close_row(out: &mut Vec<u8>, row: &[i64], tolerance: i64) {
+    let (Some(least), Some(greatest)) = (row.iter().min(), row.iter().max()) else {
+        return;
+    };
+    if greatest - least <= 2 * tolerance {
+        out.push(0);
+        push_coded_number(out, (least + greatest).div_euclid(2));
+        return;
+    }
+    let mut corners = vec![CORNER_ROW_ORDER];
+    push_coded_number(&mut corners, row[0]);
+    let mut corner = 0;
+    while corner + 1 < row.len() {
+        let next = next_row_corner(row, corner, tolerance);
+        push_coded_number(&mut corners, (next - corner) as i64);
+        push_coded_number(&mut corners, row[next] - row[corner]);
+        corner = next;
+    }
+    let mut differences = Vec::new();
+    push_row(&mut differences, row);
+    out.append(if corners.len() < differences.len() {
+        &mut corners
+    } else {
+        &mut differences
+    });
+}
+
+/// Returns the place of the farthest number to which a straight line from that at `corner` stays close.
+fn next_row_corner(row: &[i64], corner: usize, tolerance: i64) -> usize {
+    let is_close = |end: &usize| {
+        let length = (end - corner) as i64;
+        let rise = row[*end] - row[corner];
+        (corner + 1..*end).all(|at| {
+            // Both sides are multiplied by the length, so that the numbers stay whole.
+            let line = row[corner] * length + rise * (at - corner) as i64;
+            (row[at] * length - line).abs() <= tolerance * length
+        })
+    };
+    let farthest = (corner + MAX_CORNER_DISTANCE).min(row.len() - 1);
+    (corner + 1..=farthest).rev().find(is_close).unwrap_or(corner + 1)
+}
+
 /// Returns the differences of each number to the one before; the first is kept.
 fn row_differences(row: &[i64]) -> Vec<i64> {
     let before = std::iter::once(0).chain(row.iter().copied());
@@ -63,6 +112,15 @@ impl CodeReader<'_> {
         if order == 0 {
             return vec![self.decode_next_number(); length];
         }
+        if order == CORNER_ROW_ORDER {
+            let mut row = vec![self.decode_next_number()];
+            while row.len() < length {
+                let (from, distance) = (row[row.len() - 1] as f64, self.decode_next_number());
+                let rise = self.decode_next_number() as f64;
+                row.extend((1..=distance).map(|at| (from + rise * at as f64 / distance as f64).round() as i64));
+            }
+            return row;
+        }
         let mut row: Vec<i64> = (0..length).map(|_| self.decode_next_number()).collect();
         for _ in 0..order {
             for at in 1..length {
@@ -87,6 +145,21 @@ mod tests {
             let mut reader = CodeReader(&bytes);
             prop_assert_eq!(reader.decode_number_row(row.len()), row);
             prop_assert!(reader.0.is_empty());
+        }
+
+        #[test]
+        fn close_rows_are_close_and_take_no_more_bytes(
+            row in prop::collection::vec(-400_i64..400, 1..200),
+            tolerance in 0_i64..40,
+        ) {
+            let (mut bytes, mut exact) = (Vec::new(), Vec::new());
+            push_close_row(&mut bytes, &row, tolerance);
+            push_row(&mut exact, &row);
+            prop_assert!(bytes.len() <= exact.len());
+            let mut reader = CodeReader(&bytes);
+            let read = reader.decode_number_row(row.len());
+            prop_assert!(reader.0.is_empty());
+            prop_assert!(row.iter().zip(&read).all(|(a, b)| (a - b).abs() <= tolerance + 1), "{row:?} {read:?}");
         }
     }
 }

@@ -2,7 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use chereme_formats::lexicon::short_language_code;
 use chereme_sign::SignComponent;
+use chereme_sign::text::fold_text;
 use rusqlite::Connection;
 
 use crate::Corpus;
@@ -11,10 +13,13 @@ use crate::db::edits;
 use crate::db::lexicons;
 use crate::db::notations;
 use crate::db::signs::{self, TokenRow, TokenValueRow};
+use crate::db::stored_attributes::{self, AttributeRow};
 use crate::db::stored_columns::{RecordOrigin, ValueState};
 use crate::db::stored_recordings;
+use crate::db::stored_spans;
 use crate::error::CorpusResult;
 use crate::lexicon::{LexiconScope, keep_scope_rows};
+use crate::notation;
 use crate::pairs;
 use crate::progress::ProgressReceiver;
 use crate::search::SearchOptions;
@@ -26,13 +31,22 @@ use super::publish_source::MovementSource;
 /// The most minimal pairs that a sign lists.
 const MAX_ENTRY_PAIRS: usize = 40;
 
+/// Texts with their languages.
+type EntryTexts = Vec<(String, String)>;
+
 /// A sign of the dictionary.
 pub(super) struct DictionaryEntry {
     pub(super) gloss: String,
     /// The name of its folder.
     pub(super) name: String,
-    /// Translations, as language and text.
-    pub(super) texts: Vec<(String, String)>,
+    /// Translations, as language and text: those of the lexicon, then those annotated for the shown token alone.
+    pub(super) texts: EntryTexts,
+    /// Sentences in which the shown token is signed, as language and text.
+    pub(super) sentences: EntryTexts,
+    /// The notation as HamNoSys, if there is one.
+    pub(super) notation: Option<String>,
+    /// The attributes of the lexicon's rows, and measures.
+    pub(super) attributes: Vec<AttributeRow>,
     /// Remarks, if they were asked for.
     pub(super) notes: Option<String>,
     pub(super) token: TokenRow,
@@ -56,6 +70,8 @@ pub(super) struct DictionaryEntry {
 pub(super) enum EntryMovement {
     /// The sign has no movement.
     Never,
+    /// The sign has no movement, but the token of this row has a notation, from which movement can be generated.
+    Notated(i64),
     /// The movement may not be shown.
     Withheld,
     /// The movement may be shown.
@@ -114,6 +130,15 @@ pub(super) fn collect_dictionary_entries(
             let next = people.len() + 1;
             *people.entry(id).or_insert(next)
         });
+        let own_tokens: Vec<i64> = [token.id].into_iter().chain(lexicon_tokens.iter().copied()).collect();
+        let mut notated = None;
+        for id in &own_tokens {
+            notated = notation::notation_of_token(connection, *id)?;
+            if notated.is_some() {
+                break;
+            }
+        }
+        let mut attributes = stored_attributes::of_tokens(connection, &own_tokens)?;
         let mut terms = terms;
         let moves = match movement {
             Some(Ok(more)) => {
@@ -128,17 +153,40 @@ pub(super) fn collect_dictionary_entries(
                     None => EntryMovement::Never,
                 }
             }
-            None => EntryMovement::Never,
+            None => {
+                let mut tokens = [token.id].into_iter().chain(lexicon_tokens.iter().copied());
+                let notated = tokens.find_map(|id| match notations::find_token_notation(connection, id) {
+                    Ok(notation) => notation.map(|_| Ok(id)),
+                    Err(error) => Some(Err(error)),
+                });
+                notated
+                    .transpose()?
+                    .map_or(EntryMovement::Never, EntryMovement::Notated)
+            }
         };
         let values = entry_values(connection, &token, &lexicon_tokens)?;
+        let (texts, sentences) = entry_translations(connection, &token)?;
         let remarks = edits::sign_gloss_and_notes(connection, token.sign_id)?.1;
         entries.all.push(DictionaryEntry {
             name: String::new(),
-            texts: signs::list_sign_translations(connection, token.sign_id)?,
+            texts,
+            sentences,
+            notation: notated.map(|notated| match notated.text {
+                Some(text) => text,
+                None => notated.document.hamnosys_text().text,
+            }),
+            attributes: own_tokens
+                .iter()
+                .filter_map(|id| attributes.remove(id))
+                .flatten()
+                .collect(),
             notes: remarks.filter(|_| options.notes),
             coding: corpus.coding_from_values(&token, &values)?,
             values,
-            source: MovementSource::movement_source_of_token(connection, &token)?,
+            source: match moves {
+                EntryMovement::Notated(_) => MovementSource::Notation,
+                _ => MovementSource::movement_source_of_token(connection, &token)?,
+            },
             token,
             gloss,
             terms,
@@ -151,6 +199,29 @@ pub(super) fn collect_dictionary_entries(
     entries.people = people.len();
     entries.without_pairs = !add_pairs(&mut entries.all);
     Ok(entries)
+}
+
+/// Returns the words for a token's sign and the sentences in which the token is signed, each once.
+fn entry_translations(connection: &Connection, token: &TokenRow) -> CorpusResult<(EntryTexts, EntryTexts)> {
+    let mut words = signs::list_sign_translations(connection, token.sign_id)?;
+    let mut sentences = EntryTexts::new();
+    for annotated in stored_spans::translations_over_token(connection, token.id)? {
+        let texts = match annotated.other_signs {
+            0 => &mut words,
+            _ => &mut sentences,
+        };
+        let folded = fold_text(&annotated.text);
+        if texts.iter().all(|(_, text)| fold_text(text) != folded) {
+            texts.push((annotated.language, annotated.text));
+        }
+    }
+    for (language, _) in words.iter_mut().chain(&mut sentences) {
+        // Pages name languages as browsers do, which choose the voice and the letters by it.
+        if let Some(code) = short_language_code(&language.to_lowercase()) {
+            *language = code.to_owned();
+        }
+    }
+    Ok((words, sentences))
 }
 
 /// Names the folder of each sign. Only the signs of the dictionary count: the mark of a name would show that another

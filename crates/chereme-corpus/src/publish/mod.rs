@@ -19,8 +19,9 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use chereme_figure::{RasterImage, write_png};
+use chereme_figure::{RasterImage, write_palette_png};
 use chereme_sign::ErrorRemedy;
+use chereme_sign::hamnosys::drawing::hamnosys_to_svg;
 use chereme_sign::text::fold_text;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -42,6 +43,8 @@ use publish_facets::{CHOOSABLE_COMPONENTS, ComponentFacet};
 /// The words for the body that plays the signs, in `consent.json`.
 const SIGNER_BODY_WORDS: &str = "that of each signer";
 const PROGRAM_BODY_WORDS: &str = "the program's own; rhythm and movement are still the signer's";
+/// The height of a notation's symbols on a page, in pixels.
+const NOTATION_HEIGHT_PX: f32 = 48.0;
 /// The most signs of a dictionary.
 const MAX_DICTIONARY_SIGNS: usize = 50_000;
 /// How many signs that were left out are named for each reason.
@@ -65,6 +68,8 @@ pub struct PublishOptions {
     pub notes: bool,
     /// Whether signs play on the program's own body instead of the signer's.
     pub own_body: bool,
+    /// Whether signs that have a notation and no movement stay without movement.
+    pub without_animation: bool,
 }
 
 impl PublishOptions {
@@ -104,6 +109,10 @@ pub struct PublishedDictionary {
     pub apart: Vec<String>,
     /// Whether minimal pairs are left out, because there are too many of them.
     pub without_pairs: bool,
+    /// The number of signs whose movement was generated from their notation for this dictionary.
+    pub animated: usize,
+    /// The signs whose notation could not be animated.
+    pub unanimated: Vec<String>,
     /// The signs that were left out, by reason.
     pub left_out: Vec<LeftOutSigns>,
 }
@@ -139,6 +148,10 @@ struct WrittenSite {
     cut: Vec<String>,
     /// The signs with a touch that is lost on another body.
     apart: Vec<String>,
+    /// The number of signs whose notation was animated.
+    animated: usize,
+    /// The signs whose notation could not be animated.
+    unanimated: Vec<String>,
 }
 
 fn as_text<S: serde::Serializer>(remedy: &ErrorRemedy, out: S) -> std::result::Result<S::Ok, S::Error> {
@@ -222,13 +235,15 @@ impl Corpus {
             own_body: options.own_body,
             apart: written.apart,
             without_pairs: collected.without_pairs,
+            animated: written.animated,
+            unanimated: written.unanimated,
             left_out,
         })
     }
 
     /// Writes pages, data and pictures.
     fn write_dictionary(
-        &self,
+        &mut self,
         folder: &mut PublicationFolder,
         found: &DictionaryEntries,
         options: &PublishOptions,
@@ -242,24 +257,43 @@ impl Corpus {
             inventories: &inventories,
         };
         let mut bodies = DictionaryBodies::new(options.own_body)?;
-        let mut moving = vec![false; found.all.len()];
+        let mut moving: Vec<Option<String>> = Vec::with_capacity(found.all.len());
         let mut written = WrittenSite::default();
         for (at, entry) in found.all.iter().enumerate() {
             progress.report_items("writing signs", at, found.all.len())?;
-            let mut body = None;
-            if entry.moves == EntryMovement::Public {
-                match bodies.write_sign_body(self, folder, entry)? {
-                    Some(done) => {
-                        body = Some(done.body);
-                        let named = |flag: bool| flag.then(|| entry.gloss.clone());
-                        written.cut.extend(named(done.is_cut));
-                        written.apart.extend(named(done.is_apart));
-                    }
-                    None => written.armless += 1,
+            let shown = match entry.moves {
+                EntryMovement::Public => {
+                    let shown = bodies.write_stored_sign(self, folder, entry)?;
+                    written.armless += usize::from(shown.is_none());
+                    shown
                 }
+                EntryMovement::Notated(token) if !options.without_animation => {
+                    let shown = bodies.write_notated_sign(self, folder, entry, token);
+                    match shown {
+                        Err(CorpusError::Stopped) => return Err(CorpusError::Stopped),
+                        Ok(Some(_)) => written.animated += 1,
+                        // One notation that cannot be performed is no reason to publish none.
+                        Ok(None) | Err(_) => written.unanimated.push(entry.gloss.clone()),
+                    }
+                    shown.ok().flatten()
+                }
+                _ => None,
+            };
+            let body = shown.map(|shown| {
+                let named = |flag: bool| flag.then(|| entry.gloss.clone());
+                written.cut.extend(named(shown.is_cut));
+                written.apart.extend(named(shown.is_apart));
+                shown.body
+            });
+            moving.push(body);
+        }
+        // A page names the bodies of its minimal pairs, so that all movement is written before.
+        for (at, entry) in found.all.iter().enumerate() {
+            let notation = entry.notation.as_deref();
+            if let Some(picture) = notation.and_then(|text| hamnosys_to_svg(text, NOTATION_HEIGHT_PX)) {
+                folder.write_published_file(&format!("sign/{}/notation.svg", entry.name), picture.as_bytes())?;
             }
-            moving[at] = body.is_some();
-            let page = site.sign_page_html(entry, &found.all, body.as_deref());
+            let page = site.sign_page_html(at, &found.all, &moving);
             folder.write_published_file(&format!("sign/{}/index.html", entry.name), page.as_bytes())?;
         }
         let chosen = CHOOSABLE_COMPONENTS.map(|(_, it)| publish_facets::component_facet(it, &found.all, &inventories));
@@ -267,14 +301,16 @@ impl Corpus {
         folder.write_published_file("data/signs.js", format!("CH.data({data});\n").as_bytes())?;
         folder.write_published_file("app.js", page_script().as_bytes())?;
         folder.write_published_file("app.css", page_style().as_bytes())?;
-        folder.write_published_file("list.html", site.sign_list_page(&found.all).as_bytes())?;
+        for (name, page) in site.sign_list_pages(&found.all, &moving) {
+            folder.write_published_file(&name, page.as_bytes())?;
+        }
         folder.write_published_file("index.html", site.index().as_bytes())?;
         let shapes = data["facets"]["h"].as_array();
         let count =
             |fits: &dyn Fn(&Value) -> bool| shapes.map_or(0, |list| list.iter().filter(|shape| fits(shape)).count());
         written.undrawn = count(&|shape| shape.get("pic").is_none());
         written.namesakes = count(&|shape| shape.get("as").is_some());
-        written.moving = moving.iter().filter(|is_moving| **is_moving).count();
+        written.moving = moving.iter().flatten().count();
         Ok(written)
     }
 }
@@ -284,7 +320,7 @@ fn write_choices(
     folder: &mut PublicationFolder,
     found: &DictionaryEntries,
     chosen: &[ComponentFacet<'_>; 3],
-    moving: &[bool],
+    moving: &[Option<String>],
     inventories: &[inventories::StoredInventory],
 ) -> CorpusResult<Value> {
     let (drawn, spots) = publish_facets::draw_place_panels(&chosen[1])?;
@@ -352,13 +388,13 @@ fn write_choices(
         .all
         .iter()
         .enumerate()
-        .map(|(at, entry)| index_sign_json(entry, chosen, at, moving[at]))
+        .map(|(at, entry)| index_sign_json(entry, chosen, at, moving[at].as_deref()))
         .collect();
     Ok(json!({ "facets": values, "panels": panels, "signs": signs }))
 }
 
-/// Returns a sign as the first page reads it.
-fn index_sign_json(entry: &DictionaryEntry, chosen: &[ComponentFacet<'_>; 3], at: usize, moves: bool) -> Value {
+/// Returns a sign as the first page reads it; `body` is the name of its body's file, if it moves.
+fn index_sign_json(entry: &DictionaryEntry, chosen: &[ComponentFacet<'_>; 3], at: usize, body: Option<&str>) -> Value {
     let mut it = json!({ "g": entry.gloss });
     // The page assumes that both are the same, which keeps the list small.
     if entry.name != entry.gloss {
@@ -380,15 +416,15 @@ fn index_sign_json(entry: &DictionaryEntry, chosen: &[ComponentFacet<'_>; 3], at
         let weak = entry.coding.keys().any(|field| field.starts_with("weak."));
         it["n"] = json!(1 + usize::from(weak));
     }
-    if moves {
-        it["v"] = json!(1);
+    if let Some(body) = body {
+        it["v"] = json!(body);
     }
     it
 }
 
 fn png(image: &RasterImage) -> CorpusResult<Vec<u8>> {
     let mut bytes = Vec::new();
-    write_png(image, &mut bytes).map_err(|error| CorpusError::from_wrong_message(error.to_string()))?;
+    write_palette_png(image, &mut bytes).map_err(|error| CorpusError::from_wrong_message(error.to_string()))?;
     Ok(bytes)
 }
 

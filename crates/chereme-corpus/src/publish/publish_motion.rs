@@ -2,12 +2,12 @@
 //! sign, in whole numbers.
 
 use chereme_figure::camera::FigureCamera;
-use chereme_figure::{BoneMotion, ClipFraming, FigureView, PortableBody, PortableBone, SignerBody};
+use chereme_figure::{BoneMotion, ClipFraming, FaceMorph, FigureView, PortableBody, PortableBone, SignerBody};
 use chereme_motion::glam::{Quat, Vec3};
-use chereme_motion::{BodyAnatomy, BodyPart, BodySide, Clip, FrameRate};
+use chereme_motion::{BodyAnatomy, BodyPart, BodySide, Clip, FacePosture, FrameRate, ModelPose};
 use serde_json::{Value, json};
 
-use super::codes::{push_coded_number, push_row};
+use super::codes::{push_close_row, push_coded_number, push_row};
 use crate::error::{CorpusError, CorpusResult};
 use crate::page::encode_base64;
 
@@ -19,8 +19,24 @@ const MAX_PUBLISHED_FRAMES: usize = 3600;
 const QUATERNION_SCALE: f32 = 8192.0;
 /// Whole numbers per metre of a bone's offset.
 const BONE_OFFSET_SCALE: f32 = 5000.0;
+/// How far a number of a rotation and of an offset may be from its own: about 0.02 degrees, and 0.4 millimetres.
+const MOTION_TOLERANCES: [i64; 2] = [1, 2];
 /// Whole numbers per metre of the surface.
 const SURFACE_POINT_SCALE: f32 = 10_000.0;
+
+/// Whole numbers per metre of a change of the face.
+const MORPH_OFFSET_SCALE: f32 = 4000.0;
+/// Whole numbers per unit of a number of a face.
+const FACE_NUMBER_SCALE: f64 = 100.0;
+
+/// Returns the faces of a movement in the frames of `clip`, which has the same length at another rate or its first part.
+pub(super) fn published_faces(clip: &Clip, faces: &[FacePosture], rate: FrameRate) -> Vec<FacePosture> {
+    let face_at = |frame: usize| {
+        let moment = clip.clip_frame_rate().frame_start_instant(frame);
+        FacePosture::face_at_moment(faces, rate, moment).unwrap_or_default()
+    };
+    (0..clip.clip_frame_count()).map(face_at).collect()
+}
 
 /// Returns the clip in the frames that the page gets, at most sixty a second and 3,600 in all, and whether it is cut.
 pub(super) fn limit_published_frames(clip: &Clip) -> CorpusResult<(Clip, bool)> {
@@ -70,6 +86,24 @@ pub(super) fn body_surface_json(body: &PortableBody) -> Value {
     })
 }
 
+/// Returns the changes of a body's face as JSON.
+pub(super) fn face_morphs_json(morphs: &[FaceMorph]) -> Value {
+    let mut bytes = Vec::new();
+    for morph in morphs {
+        let vertices = morph.vertices.iter().map(|vertex| *vertex as i64);
+        push_row(&mut bytes, &vertices.collect::<Vec<_>>());
+        for axis in 0..3 {
+            let offsets = morph
+                .offsets
+                .iter()
+                .map(|offset| scale_to_integer(offset[axis], MORPH_OFFSET_SCALE));
+            push_row(&mut bytes, &offsets.collect::<Vec<_>>());
+        }
+    }
+    let morph_json = |morph: &FaceMorph| json!({ "n": morph.number, "s": if morph.is_negative { -1 } else { 1 }, "l": morph.vertices.len() });
+    json!({ "morphs": morphs.iter().map(morph_json).collect::<Vec<_>>(), "data": encode_base64(&bytes) })
+}
+
 /// Returns weights as whole numbers whose sum is 255: a body one metre above the floor would move by 4 mm for each
 /// missing one. The first weight is the largest.
 fn weight_shares(weights: [f32; 4]) -> [i64; 4] {
@@ -110,9 +144,11 @@ fn scale_to_integer(number: f32, scale: f32) -> i64 {
     (number * scale).round() as i64
 }
 
-/// Returns the movement of a clip on its body as JSON: rate, frames, cameras, and numbers in base64.
+/// Returns the movement of a clip on its body as JSON: rate, frames, cameras, the numbers of the face that move, and all
+/// numbers in base64. `faces` has a face for each frame.
 pub(super) fn coded_motion_json(
     clip: &Clip,
+    faces: &[FacePosture],
     anatomy: &BodyAnatomy,
     body: &SignerBody,
     portable: &PortableBody,
@@ -121,11 +157,27 @@ pub(super) fn coded_motion_json(
     let keyed = |frame: usize| body.bone_motions(portable, &clip.model_pose(frame));
     let mut motions: Vec<Vec<BoneMotion>> = (0..frames).map(keyed).collect();
     continuous(&mut motions);
-    let bytes = encode_bone_motions(&motions);
+    let mut bytes = encode_bone_motions(&motions);
+    let face_rows: Vec<[f64; FacePosture::FACE_NUMBER_COUNT]> = faces.iter().map(FacePosture::face_numbers).collect();
+    let mut moving_numbers = Vec::new();
+    for number in 0..FacePosture::FACE_NUMBER_COUNT {
+        let values = face_rows
+            .iter()
+            .map(|row| (row[number] * FACE_NUMBER_SCALE).round() as i64);
+        let values: Vec<i64> = values.collect();
+        if values.iter().any(|value| *value != 0) {
+            moving_numbers.push(number);
+            push_close_row(&mut bytes, &values, 1);
+        }
+    }
     let mut cameras = serde_json::Map::new();
-    if let Some(framing) = ClipFraming::framing_from_clip(clip, anatomy) {
-        let pose = clip.model_pose(chereme_figure::stroke_frame(clip, anatomy).min(frames - 1));
-        for (name, view) in [("front", FigureView::Addressee), ("side", FigureView::Right)] {
+    if let Some((framing, pose)) = shared_framing(clip, anatomy) {
+        let views = [
+            ("front", FigureView::Addressee),
+            ("side", FigureView::Right),
+            ("face", FigureView::Face),
+        ];
+        for (name, view) in views {
             let seen = framing.framing_camera(view, 0.8, &pose, anatomy);
             cameras.insert(name.to_owned(), camera_json(&seen));
         }
@@ -135,8 +187,16 @@ pub(super) fn coded_motion_json(
     }
     json!({
         "rate": round_decimals(clip.clip_frame_rate().per_second() as f32, 4), "frames": frames,
-        "cameras": cameras, "data": encode_base64(&bytes),
+        "cameras": cameras, "face": moving_numbers, "data": encode_base64(&bytes),
     })
+}
+
+/// Returns the space that pictures of a movement show, the same for most movements of a body, and the posture of its
+/// stroke; nothing without frames.
+pub(super) fn shared_framing(clip: &Clip, anatomy: &BodyAnatomy) -> Option<(ClipFraming, ModelPose)> {
+    let framing = ClipFraming::framing_from_clip(clip, anatomy)?;
+    let pose = clip.model_pose(chereme_figure::stroke_frame(clip, anatomy).min(clip.clip_frame_count() - 1));
+    Some((framing.with_usual_signing_room(&pose, anatomy), pose))
 }
 
 /// Gives each quaternion the sign that is nearer to the one before it.
@@ -159,15 +219,22 @@ fn continuous(motions: &mut [Vec<BoneMotion>]) {
 fn encode_bone_motions(motions: &[Vec<BoneMotion>]) -> Vec<u8> {
     let mut bytes = Vec::new();
     for bone in 0..motions.first().map_or(0, Vec::len) {
-        let mut push = |part: &dyn Fn(&BoneMotion) -> i64| {
+        let [rotation_tolerance, offset_tolerance] = MOTION_TOLERANCES;
+        let mut push = |part: &dyn Fn(&BoneMotion) -> i64, tolerance: i64| {
             let row: Vec<i64> = motions.iter().map(|frame| part(&frame[bone])).collect();
-            push_row(&mut bytes, &row);
+            push_close_row(&mut bytes, &row, tolerance);
         };
         for axis in 0..4 {
-            push(&|motion| scale_to_integer(motion.turn.to_array()[axis], QUATERNION_SCALE));
+            push(
+                &|motion| scale_to_integer(motion.turn.to_array()[axis], QUATERNION_SCALE),
+                rotation_tolerance,
+            );
         }
         for axis in 0..3 {
-            push(&|motion| scale_to_integer(motion.off[axis], BONE_OFFSET_SCALE));
+            push(
+                &|motion| scale_to_integer(motion.off[axis], BONE_OFFSET_SCALE),
+                offset_tolerance,
+            );
         }
     }
     bytes

@@ -15,7 +15,7 @@ use crate::db::stored_history;
 /// The size of the longest body language file that is read, in bytes.
 const MAX_LANGUAGE_FILE_BYTES: u64 = 1 << 20;
 /// The names that do not stand for files.
-const DEFAULT_LANGUAGE_NAME: &str = "default";
+pub(crate) const DEFAULT_LANGUAGE_NAME: &str = "default";
 const MEASURED_LANGUAGE_NAME: &str = "measured";
 const QUIET_LANGUAGE_NAME: &str = "quiet";
 

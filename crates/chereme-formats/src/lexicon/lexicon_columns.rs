@@ -587,13 +587,19 @@ fn holds_notation(rows: &[TableRow], column: usize) -> bool {
     notated * 2 > all
 }
 
+/// Returns the code of two letters for a language that a code or a name means, in lower case: `fr` for `fra` and `french`.
+#[must_use]
+pub fn short_language_code(name: &str) -> Option<&'static str> {
+    let known = LANGUAGE_TITLE_WORDS.iter().find(|(_, names)| names.contains(&name));
+    known.map(|(code, _)| *code)
+}
+
 /// Returns the language that a title of several words names, and the word.
 fn language_in_title(title: &str) -> Option<(String, &str)> {
     let words: Vec<&str> = title.split(' ').collect();
-    let mut language_words = words.iter().filter_map(|word| {
-        let (code, _) = LANGUAGE_TITLE_WORDS.iter().find(|(_, names)| names.contains(word))?;
-        Some(((*code).to_owned(), *word))
-    });
+    let mut language_words = words
+        .iter()
+        .filter_map(|word| Some((short_language_code(word)?.to_owned(), *word)));
     language_words.next().filter(|_| words.len() > 1)
 }
 

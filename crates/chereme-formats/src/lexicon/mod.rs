@@ -25,7 +25,7 @@ mod slpaa;
 
 use chereme_sign::ErrorRemedy;
 use lexicon_columns::LexiconTableColumns;
-pub use lexicon_columns::{LexiconColumn, LexiconColumnMeaning};
+pub use lexicon_columns::{LexiconColumn, LexiconColumnMeaning, short_language_code};
 
 use crate::finding::ImportFinding;
 use crate::hns::{holds_symbols, mended_finding};

@@ -3,6 +3,8 @@
 const CH = { bodies: {}, motions: {}, waiting: {} };
 window.CH = CH;
 
+// A language is a text of its own in the table, and no method of every object.
+Object.setPrototypeOf(TEXTS, null);
 const hash = () => new URLSearchParams(location.hash.slice(1));
 let language = hash().get("lang");
 if (!TEXTS[language]) {
@@ -48,6 +50,18 @@ function changeLanguage(after) {
   });
 }
 
+// Loads a movement and its body, each once.
+CH.body = (name, it) => { CH.bodies[name] = it; };
+CH.motion = (name, it) => { CH.motions[name] = it; };
+CH.face = (name, it) => { CH.bodies[name].face = it; };
+const loads = {};
+const load = (path) => (loads[path] = loads[path] || new Promise((done, fail) => {
+  document.head.append(el("script", { src: path, onload: done, onerror: fail }));
+}));
+const loadMotion = (root, motion, body) => Promise.all([load(root + "data/motion/" + encodeURIComponent(motion) + ".js"), load(root + "data/body/" + body + ".js")])
+  .then(() => CH.motions[motion].face.length && load(root + "data/body/" + body + "-face.js"))
+  .then(() => [CH.motions[motion], CH.bodies[body]]);
+
 const link = (name) => "sign/" + encodeURIComponent(name) + "/index.html";
 
 // The numbers of data files: see codes.rs.
@@ -77,6 +91,16 @@ class Numbers {
     this.at += 1;
     const row = new Float64Array(length);
     if (order === 0) return row.fill(this.number());
+    if (order === 3) {
+      row[0] = this.number();
+      for (let at = 0; at < length - 1;) {
+        const distance = this.number();
+        const rise = this.number();
+        for (let step = 1; step <= distance; step += 1) row[at + step] = row[at] + (rise * step) / distance;
+        at += distance;
+      }
+      return row;
+    }
     for (let at = 0; at < length; at += 1) row[at] = this.number();
     for (let again = 0; again < order; again += 1) for (let at = 1; at < length; at += 1) row[at] += row[at - 1];
     return row;

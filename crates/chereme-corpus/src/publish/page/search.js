@@ -143,6 +143,7 @@ function found() {
 const wide = () => matchMedia("(min-width: 60rem)").matches;
 const buttons = [];
 const copyShown = copyLines();
+let moving = null;
 
 function choice(facet, key, label, attributes, ...inside) {
   const count = el("span", { class: "count" });
@@ -234,6 +235,7 @@ function hands() {
 }
 
 function build() {
+  moving = movingCards();
   const search = el("input", { id: "q", type: "search", autocomplete: "off", spellcheck: "false", oninput: (event) => {
     state.q = event.target.value;
     shown = SHOWN;
@@ -245,7 +247,7 @@ function build() {
     el("p", { class: "hint", "data-t": "about" }),
     picker("h", "shape", handshapes()) || "", picker("p", "place", places()) || "", picker("m", "movement", movements()) || "", picker("n", "hands", hands()) || "",
     el("p", { class: "hint keys", "data-t": "keys-search" }));
-  document.getElementById("answer").append(el("p", { id: "total", role: "status" }), el("ol", { id: "exact", class: "cards" }), el("p", { id: "moreRow" }, el("button", { type: "button", id: "more", "data-t": "more", onclick: () => { shown += 4 * SHOWN; update(); } })),
+  document.getElementById("answer").append(el("p", { class: "row" }, el("span", { id: "total", role: "status" }), data.signs.some((sign) => sign.v) && moving.choice), el("ol", { id: "exact", class: "cards" }), el("p", { id: "moreRow" }, el("button", { type: "button", id: "more", "data-t": "more", onclick: () => { shown += 4 * SHOWN; update(); } })),
     el("h2", { id: "nearTitle", "data-t": "near" }), el("ol", { id: "near", class: "cards" }));
   document.querySelector("footer").append(copyShown.line);
   search.value = state.q;
@@ -255,6 +257,8 @@ function build() {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     if (event.key === "/" && event.target !== search) { event.preventDefault(); search.focus(); }
     if (event.key === "Escape") clear();
+    const only = document.querySelectorAll("#exact a");
+    if (event.key === "Enter" && event.target === search && only.length === 1) only[0].click();
   });
   update();
   keepCopy(copyShown.draw);
@@ -269,7 +273,7 @@ function clear() {
 
 function card(sign, off) {
   const shape = (sign.h || []).map((at) => data.facets.h[at]).find((it) => it.pic);
-  const picture = sign.v ? el("img", { src: "sign/" + encodeURIComponent(sign.d || sign.g) + "/still.png", width: 120, height: 150, alt: "", loading: "lazy" })
+  const picture = sign.v ? el("div", { class: "picture" }, el("img", { src: "sign/" + encodeURIComponent(sign.d || sign.g) + "/still.png", width: 120, height: 150, alt: "", loading: "lazy" }))
     : shape ? el("img", { class: "hand", src: "hands/" + shape.pic + ".png", width: 64, height: 64, alt: "", loading: "lazy" }) : el("span", { class: "nothing" });
   const words = (sign.w || []).filter((it) => it[0] === language).map((it) => it[1]);
   const others = words.length ? words : (sign.w || []).map((it) => it[1]);
@@ -278,7 +282,7 @@ function card(sign, off) {
     const name = { h: "shape", p: "place", m: "movement", n: "hands" }[facet];
     return t(name) + (own.length ? " " + own.map((at) => (facet === "n" ? t(at ? "two" : "one") : facet === "h" ? data.facets.h[at].id : named(facet, at))).join(", ") : " " + t("unknown"));
   });
-  return el("li", {}, el("a", { href: link(sign.d || sign.g) + "#lang=" + language }, picture, el("b", {}, sign.g), el("span", {}, others.slice(0, 3).join(", ")), differs && el("em", {}, t("differs", { what: differs.join("; ") }))));
+  return el("li", {}, el("a", { href: link(sign.d || sign.g) + "#lang=" + language, "data-motion": sign.v && (sign.d || sign.g), "data-body": sign.v }, picture, el("b", {}, sign.g), el("span", {}, others.slice(0, 3).join(", ")), differs && el("em", {}, t("differs", { what: differs.join("; ") }))));
 }
 
 function update() {
@@ -315,6 +319,7 @@ function update() {
   const near = answer.near.slice(0, NEAR);
   document.getElementById("nearTitle").hidden = !near.length;
   document.getElementById("near").replaceChildren(...near.map((it) => card(it[2], it[3])));
+  moving.follow();
   copyShown.draw();
   writeState();
 }
