@@ -12,6 +12,7 @@ message-command-demo-3-make-stored-as-token = 3. Composer { $gloss } = { $recipe
 line-command-demo-found-again-by-search = retrouvé par la recherche, { $query } : { $n }
 line-command-demo-4-pictures-in = 4. Images dans { $path } : { $names }
 message-command-demo-5-written-out-limace-bvh-tokens = 5. Exporté : LIMACE.bvh, tokens.csv, et tout dans le dossier enriched
+line-command-demo-6-dictionary-for-any-browser = 6. Un dictionnaire de { $signs } pour tout navigateur : { $path }
 line-command-demo-look-at-first-then-try = Regardez d’abord { $path }. Puis essayez :
 message-command-demo-corpus-built-first = le corpus est d’abord construit
 message-command-demo-by-handshape = par configuration
@@ -24,6 +25,6 @@ message-command-demo-no-folder-name-free-here = aucun nom de dossier n’est lib
 
 ## Help of commands and options.
 
-help-command-demo-show-program-s-main-work-on = Faire l’essentiel sur le corpus de départ : construire, chercher, recombiner, enregistrer, dessiner, exporter
+help-command-demo-show-program-s-main-work-on = Faire l’essentiel sur le corpus de départ : construire, chercher, recombiner, enregistrer, dessiner, exporter, publier
 help-command-demo-folder-for-results-demo-without-new = Le dossier des résultats de la démonstration ; sinon un nouveau dans le dossier courant
 help-command-demo-starter-corpus-generated-by-program-not = Le corpus de départ a été généré par un programme, pas capté ; il est contenu dans celui-ci.
