@@ -53,7 +53,14 @@ fn the_changes_of_a_portable_face_add_up_to_expressions() {
             .min_by(|a, b| distance(a).total_cmp(&distance(b)))
             .expect("a mesh")
     };
-    let own: Vec<(usize, usize)> = moving.iter().map(|vertex| (*vertex, own(*vertex))).collect();
+    // Lips lie upon each other at rest, so that the nearest vertex may be another one; but both faces have one order.
+    let mut lags: Vec<usize> = moving.iter().map(|vertex| own(*vertex).wrapping_sub(*vertex)).collect();
+    lags.sort_unstable();
+    let lag = lags[lags.len() / 2];
+    let own: Vec<(usize, usize)> = moving
+        .iter()
+        .map(|vertex| (*vertex, vertex.wrapping_add(lag)))
+        .collect();
     let distances = |face: &FacePosture| {
         let mut shaped = portable.clone();
         for morph in &morphs {
@@ -77,8 +84,7 @@ fn the_changes_of_a_portable_face_add_up_to_expressions() {
         }
         numbers[morph.number] = if morph.is_negative { -1.0 } else { 1.0 };
         let all = distances(&FacePosture::from_numbers(numbers));
-        // Vertices that lie upon each other may be taken for one another: a few in a hundred.
-        let most = all[all.len() * 97 / 100];
+        let most = all[all.len() - 1];
         assert!(
             most < 3e-4,
             "{}: {most} m",
@@ -94,6 +100,7 @@ fn the_changes_of_a_portable_face_add_up_to_expressions() {
         ..FacePosture::default()
     };
     let all = distances(&question);
-    let [middle, most] = [50, 97].map(|share| all[all.len() * share / 100]);
+    let (middle, most) = (all[all.len() / 2], all[all.len() - 1]);
+    println!("middle {middle} m, most {most} m");
     assert!(middle < 1e-3 && most < 6e-3, "{middle} m, {most} m");
 }

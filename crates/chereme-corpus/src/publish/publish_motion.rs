@@ -19,8 +19,8 @@ const MAX_PUBLISHED_FRAMES: usize = 3600;
 const QUATERNION_SCALE: f32 = 8192.0;
 /// Whole numbers per metre of a bone's offset.
 const BONE_OFFSET_SCALE: f32 = 5000.0;
-/// How far a number of a rotation and of an offset may be from its own: about 0.02 degrees, and 0.4 millimetres.
-const MOTION_TOLERANCES: [i64; 2] = [1, 2];
+/// How far a number of the movement may be from its own: about 0.02 degrees of a rotation, 0.2 millimetres of an offset.
+const MOTION_TOLERANCE: i64 = 1;
 /// Whole numbers per metre of the surface.
 const SURFACE_POINT_SCALE: f32 = 10_000.0;
 
@@ -219,22 +219,15 @@ fn continuous(motions: &mut [Vec<BoneMotion>]) {
 fn encode_bone_motions(motions: &[Vec<BoneMotion>]) -> Vec<u8> {
     let mut bytes = Vec::new();
     for bone in 0..motions.first().map_or(0, Vec::len) {
-        let [rotation_tolerance, offset_tolerance] = MOTION_TOLERANCES;
-        let mut push = |part: &dyn Fn(&BoneMotion) -> i64, tolerance: i64| {
+        let mut push = |part: &dyn Fn(&BoneMotion) -> i64| {
             let row: Vec<i64> = motions.iter().map(|frame| part(&frame[bone])).collect();
-            push_close_row(&mut bytes, &row, tolerance);
+            push_close_row(&mut bytes, &row, MOTION_TOLERANCE);
         };
         for axis in 0..4 {
-            push(
-                &|motion| scale_to_integer(motion.turn.to_array()[axis], QUATERNION_SCALE),
-                rotation_tolerance,
-            );
+            push(&|motion| scale_to_integer(motion.turn.to_array()[axis], QUATERNION_SCALE));
         }
         for axis in 0..3 {
-            push(
-                &|motion| scale_to_integer(motion.off[axis], BONE_OFFSET_SCALE),
-                offset_tolerance,
-            );
+            push(&|motion| scale_to_integer(motion.off[axis], BONE_OFFSET_SCALE));
         }
     }
     bytes
