@@ -58,10 +58,16 @@ pub fn read_subtitles(bytes: &[u8]) -> Result<(AnnotationTranscript, Vec<ImportF
     let mut lines = (1u64..).zip(text.lines()).peekable();
     while let Some((line, text)) = lines.next() {
         if is_vtt && is_block(text) {
-            findings.add_limited_note("blocks of notes and styles", line, || {
-                format!("the block {:?} was left out", text.trim())
-            });
-            while lines.next_if(|(_, text)| !text.trim().is_empty()).is_some() {}
+            let mut block = vec![text.trim()];
+            while let Some((_, more)) = lines.next_if(|(_, text)| !text.trim().is_empty()) {
+                block.push(more.trim());
+            }
+            // The word that opens every file says nothing; a title behind it or lines below it do.
+            if block != ["WEBVTT"] {
+                findings.add_limited_note("blocks of notes and styles", line, || {
+                    format!("the block {:?} was left out", block.join(" "))
+                });
+            }
             continue;
         }
         let Some((span, settings)) = parse_cue_times(text) else {

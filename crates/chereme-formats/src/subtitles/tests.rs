@@ -61,7 +61,24 @@ fn skipped_lines_are_reported() {
     let text = "WEBVTT\n\nNOTE\nx\n\n00:00.000 --> 00:01.000 line:0\na\n\nsoon --> later\nb\n";
     let (_, findings) = read_subtitles(text.as_bytes()).expect("subtitles");
     let lines: Vec<Option<u64>> = findings.iter().map(|finding| finding.line).collect();
-    assert_eq!(lines, [Some(1), Some(3), Some(6), Some(9)], "{findings:?}");
+    assert_eq!(lines, [Some(3), Some(6), Some(9)], "{findings:?}");
+}
+
+#[test]
+fn only_a_header_that_says_something_is_reported() {
+    for (header, said) in [
+        ("WEBVTT", None),
+        ("WEBVTT films", Some("the block \"WEBVTT films\" was left out")),
+        (
+            "WEBVTT\nKind: captions",
+            Some("the block \"WEBVTT Kind: captions\" was left out"),
+        ),
+    ] {
+        let text = format!("{header}\n\n00:00.000 --> 00:01.000\na\n");
+        let (_, findings) = read_subtitles(text.as_bytes()).expect("subtitles");
+        let messages: Vec<&str> = findings.iter().map(|finding| finding.message.as_str()).collect();
+        assert_eq!(messages, said.into_iter().collect::<Vec<_>>(), "{header}");
+    }
 }
 
 #[test]
@@ -86,7 +103,7 @@ fn text_after_a_blank_line_is_added_or_named() {
         (
             "WEBVTT\n\na name\n00:01.000 --> 00:02.000\nx\n\ny\nz\n",
             &["subtitles|1000-2000|x"],
-            &[Some(1), Some(7), Some(8)],
+            &[Some(7), Some(8)],
         ),
         (
             "1\n00:00:01,000 --> 00:00:02,000\nx\n\n2\n",
