@@ -87,7 +87,7 @@ impl Corpus {
     /// Fails if there is no such person, somebody else has the name, or there is nothing to take away.
     pub fn change_person(&mut self, person: &RowName, change: &PersonChange) -> CorpusResult<PersonContents> {
         self.store.run_store_operation(|connection| {
-            let row = address::find_signer_by_name(connection, person)?;
+            let row = find_person_row(connection, person)?;
             let row = change_person_row(connection, &row, change)?;
             let effect = OperationEffect::ChangePerson {
                 person: row.name.clone(),
@@ -118,7 +118,7 @@ impl Corpus {
     /// Fails if there is no such person, or something of them.
     pub fn remove_person(&mut self, person: &RowName) -> CorpusResult<String> {
         self.store.run_store_operation(|connection| {
-            let row = address::find_signer_by_name(connection, person)?;
+            let row = find_person_row(connection, person)?;
             let contents = people::load_person(connection, row.id)?;
             if contents.recordings + contents.participant_tiers + contents.annotator_tiers > 0 {
                 let text = format!("the corpus has recordings or tiers of {}", row.name);
@@ -186,6 +186,18 @@ impl Corpus {
             Ok((report, effect))
         })
     }
+}
+
+/// Returns the person with this name or number; an error lists those who only take part or annotate, too.
+fn find_person_row(connection: &Connection, person: &RowName) -> CorpusResult<SignerRow> {
+    address::find_signer_by_name(connection, person).map_err(|error| {
+        let known = people::load_people(connection).unwrap_or_default();
+        let names: Vec<String> = known.into_iter().map(|person| person.name).collect();
+        match names.is_empty() {
+            true => error,
+            false => error.with_advice(format!("the people are: {}", names.join(", "))),
+        }
+    })
 }
 
 /// Fails if somebody else has this name.
@@ -325,10 +337,10 @@ fn derive_recordings(connection: &Connection, recordings: impl IntoIterator<Item
 }
 
 fn unite_person_rows(connection: &Connection, from: &[RowName], into: &RowName) -> CorpusResult<UnitedPeople> {
-    let mut kept = address::find_signer_by_name(connection, into)?;
+    let mut kept = find_person_row(connection, into)?;
     let mut gone: Vec<SignerRow> = Vec::new();
     for name in from {
-        let row = address::find_signer_by_name(connection, name)?;
+        let row = find_person_row(connection, name)?;
         if row.id != kept.id && gone.iter().all(|other| other.id != row.id) {
             gone.push(row);
         }

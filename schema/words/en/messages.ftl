@@ -57,6 +57,7 @@ message-messages-recording-has-no-tier-did-you = the recording { $name } has no 
 message-messages-recording-has-no-tier = the recording { $name } has no tier { $tier }
 message-messages-tiers = its tiers are: { $names }
 message-messages-signers = the signers are: { $names }
+message-messages-people = the people are: { $names }
 message-messages-there-no-signer = there is no signer:{ $name }
 message-messages-there-no-recording = there is no recording:{ $id }
 message-messages-there-no-token = there is no token:{ $id }

@@ -57,6 +57,7 @@ message-messages-recording-has-no-tier-did-you = l’enregistrement { $name } n�
 message-messages-recording-has-no-tier = l’enregistrement { $name } n’a pas d’acteur { $tier }
 message-messages-tiers = ses acteurs sont : { $names }
 message-messages-signers = les signeurs sont : { $names }
+message-messages-people = les personnes sont : { $names }
 message-messages-there-no-signer = il n’y a pas de signer:{ $name }
 message-messages-there-no-recording = il n’y a pas de recording:{ $id }
 message-messages-there-no-token = il n’y a pas de token:{ $id }

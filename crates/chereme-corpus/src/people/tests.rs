@@ -43,6 +43,17 @@ fn found_tokens(corpus: &mut Corpus, query: &str) -> usize {
 }
 
 #[test]
+fn an_unknown_name_lists_those_who_only_annotate_too() {
+    let (_folder, mut corpus) = dialogue_corpus();
+    let error = corpus.change_person(&named("ann"), &PersonChange::default());
+    let remedy = error
+        .expect_err("nobody")
+        .error_remedy()
+        .map(|remedy| remedy.to_string());
+    assert_eq!(remedy.as_deref(), Some("the people are: A.L., Ada, Bo, anno"));
+}
+
+#[test]
 fn everybody_whom_a_file_names_is_a_person() {
     let (_folder, corpus) = dialogue_corpus();
     let names: Vec<String> = corpus
