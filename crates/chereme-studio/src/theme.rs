@@ -112,6 +112,8 @@ pub(crate) fn hand_theme_colours(dark: bool) -> [Color32; 2] {
 /// Sets up a context once: our fonts and spacing, and shapes that are cheap to draw.
 pub(crate) fn install_studio_theme(ctx: &Context) {
     ctx.set_fonts(fonts());
+    // egui's own shortcut quits with Alt held, too; the table of actions has the keys.
+    ctx.options_mut(|options| options.quit_shortcuts.clear());
     ctx.add_plugin(crate::pixel_rects::ShapeSimplifier);
     ctx.style_mut_of(Theme::Light, |style| refine(style, false));
     ctx.style_mut_of(Theme::Dark, |style| refine(style, true));

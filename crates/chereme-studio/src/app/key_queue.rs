@@ -29,7 +29,12 @@ impl KeyQueue {
     pub(crate) fn collect_frame_keys(&mut self, input: &mut InputState) {
         let waiting = !self.events.is_empty();
         let mut left_out = false;
-        for event in std::mem::take(&mut input.events) {
+        let holds_alt = holds_alt_key(input);
+        for mut event in std::mem::take(&mut input.events) {
+            // The system may report AltGr as no modifier at all, and Ctrl+AltGr+Q would be Ctrl+Q.
+            if let Event::Key { modifiers, .. } = &mut event {
+                modifiers.alt |= holds_alt && (modifiers.ctrl || modifiers.command);
+            }
             let was_left_out = std::mem::take(&mut left_out);
             match &event {
                 Event::Key {
@@ -219,6 +224,13 @@ impl Studio {
     }
 }
 
+/// Returns whether an Alt key or AltGr is held in a frame, or was for a part of it.
+fn holds_alt_key(input: &InputState) -> bool {
+    let is_alt = |key: &Key| [Key::AltLeft, Key::AltRight].contains(key);
+    let mut events = input.events.iter();
+    input.keys_down.iter().any(is_alt) || events.any(|event| matches!(event, Event::Key { key, .. } if is_alt(key)))
+}
+
 /// Returns whether a key may close the field that gets it, so that the keys after it are for something else.
 pub(crate) fn may_close_field(event: &Event) -> bool {
     matches!(
@@ -239,11 +251,12 @@ mod tests {
         AnnotationColumns, Corpus, ImportOptions, NewTier, ProgressReceiver, RowName, TierRole, ignore_progress_step,
         requests,
     };
-    use eframe::egui::Modifiers;
+    use eframe::egui::{Modifiers, ViewportCommand};
     use egui_kittest::Harness;
 
     use super::*;
     use crate::StudioOptions;
+    use crate::key_chord::KeyChord;
 
     const CTRL: Modifiers = Modifiers::COMMAND;
     const SHIFT: Modifiers = Modifiers::SHIFT;
@@ -290,6 +303,49 @@ mod tests {
         let columns: &AnnotationColumns = &tier.expect("a tier").annotations;
         let row = |at: usize| (columns.starts[at], columns.ends[at], columns.values[at].to_string());
         (0..columns.len()).map(row).collect()
+    }
+
+    #[test]
+    fn only_ctrl_and_the_letter_alone_quit() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut window = opened(&corpus_of_glosses(folder.path(), 0), Duration::ZERO);
+        let mut quits = |modifiers| {
+            let mut commands = Vec::new();
+            window.key_press_modifiers(modifiers, Key::Q);
+            for _ in 0..3 {
+                window.step();
+                let viewports = window.output().viewport_output.values();
+                commands.extend(viewports.flat_map(|viewport| viewport.commands.clone()));
+            }
+            commands.contains(&ViewportCommand::Close)
+        };
+        assert!(!quits(CTRL | Modifiers::ALT) && !quits(CTRL | SHIFT));
+        assert!(quits(CTRL));
+    }
+
+    #[test]
+    fn a_shortcut_with_ctrl_is_another_one_while_alt_gr_is_held() {
+        let chord_of_q = |held: Option<Key>, alt: bool| {
+            let ctrl = Modifiers { alt, ..CTRL };
+            let held = held.map(|key| pressed(Modifiers::NONE, key)[0].clone());
+            let mut input = InputState::default();
+            input.events = held.into_iter().chain([pressed(ctrl, Key::Q)[0].clone()]).collect();
+            let mut queue = KeyQueue::default();
+            queue.collect_frame_keys(&mut input);
+            let Some(Event::Key { key, modifiers, .. }) = queue.events.pop_back() else {
+                panic!("the key");
+            };
+            KeyChord::new(key, modifiers).to_string()
+        };
+        assert_eq!(chord_of_q(None, false), "Ctrl+Q");
+        assert_eq!(chord_of_q(None, true), "Ctrl+Alt+Q");
+        for alt in [Key::AltLeft, Key::AltRight] {
+            assert_eq!(chord_of_q(Some(alt), false), "Ctrl+Alt+Q");
+        }
+        // A frame later the key is still held.
+        let mut input = InputState::default();
+        input.keys_down.insert(Key::AltRight);
+        assert!(holds_alt_key(&input));
     }
 
     fn pressed(modifiers: Modifiers, key: Key) -> [Event; 2] {
