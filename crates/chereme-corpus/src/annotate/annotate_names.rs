@@ -14,6 +14,9 @@ use crate::db::stored_tiers::{self as tier_rows, AnnotationRow, TierRow};
 use crate::db::{edits, stored_recordings};
 use crate::error::{CorpusError, CorpusResult};
 
+/// Times that differ by no more are one, as files have whole milliseconds.
+pub(super) const SAME_TIME_MICROS: u64 = 500;
+
 /// A tier in a request.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum TierRequestName {
@@ -237,15 +240,14 @@ impl AnnotationChangeRun<'_> {
     }
 
     fn find_annotation_starting(&self, tier: &TierRow, start: RecordingInstant) -> CorpusResult<AnnotationRow> {
-        let (from, to) = (
-            start.shifted_instant(-500).instant_micros(),
-            start.shifted_instant(500).instant_micros(),
-        );
+        let at_us = start.instant_micros();
+        let within = i64::try_from(SAME_TIME_MICROS).unwrap_or_default();
+        let (from, to) = (at_us.saturating_sub(within), at_us.saturating_add(within));
         let near = tier_rows::annotations_near(self.connection, tier.id, from, to)?;
-        let distance = |row: &AnnotationRow| row.start_us.abs_diff(start.instant_micros());
+        let distance = |row: &AnnotationRow| row.start_us.abs_diff(at_us);
         let near_rows = near
             .iter()
-            .filter(|row| distance(row) <= 500)
+            .filter(|row| distance(row) <= SAME_TIME_MICROS)
             .min_by_key(|row| distance(row));
         if let Some(row) = near_rows {
             return Ok(row.clone());

@@ -37,6 +37,9 @@ use chereme_sign::{ComponentReading, TierRole};
 use rusqlite::Connection;
 use serde::Serialize;
 
+pub(crate) use annotate_bulk::{
+    ChangeTableFile, TableAnnotation, TableChanges, find_table_annotation, read_table_changes, write_table_changes,
+};
 pub use annotate_names::{AnnotationName, TierRequestName};
 pub use annotate_tiers::{NewTier, RemovedTiers, TierPropertyChange, TierValueSource};
 pub use copies::CopiedAnnotations;
@@ -198,26 +201,7 @@ impl Corpus {
         options: &AnnotateOptions,
         progress: &mut ProgressReceiver<'_>,
     ) -> CorpusResult<AnnotateReport> {
-        self.annotate_all(&[], changes, options, Vec::new(), progress)
-    }
-
-    fn annotate_all(
-        &mut self,
-        new: &[NewTier],
-        changes: &[AnnotationChange],
-        options: &AnnotateOptions,
-        faults: Vec<CorpusError>,
-        progress: &mut ProgressReceiver<'_>,
-    ) -> CorpusResult<AnnotateReport> {
-        let work = |connection: &Connection, progress: &mut ProgressReceiver<'_>| {
-            for tier in new {
-                annotate_tiers::insert_new_tier(connection, tier)?;
-            }
-            let report = carry_out_changes(connection, changes, options, faults, progress)?;
-            let effect = OperationEffect::Annotate(report.effect.clone());
-            Ok((report, effect))
-        };
-        self.store.operation_with_progress(progress, work)
+        self.annotate_with(OperationEffect::Annotate, &[], changes, options, progress)
     }
 
     /// Adds tiers and changes annotations as one operation, which `effect` describes: all of it, or nothing.

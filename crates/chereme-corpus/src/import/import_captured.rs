@@ -59,32 +59,8 @@ pub(super) fn import_table(job: &mut ImportJob<'_>, progress: &mut ProgressRecei
         Some(_) => import_points(job, progress),
         None if curves.is_some() => import_curves(job, progress),
         None if annotations::is_export(&head) => import_tiers(job, progress),
-        None if is_change_table(&head) => {
-            let why = CorpusError::from_wrong_message("it is a table of annotations of several recordings")
-                .with_error_place(job.path.display().to_string())
-                .with_advice(ErrorRemedy::command_remedy(
-                    "write them into their recordings: `chereme annotate CORPUS from FILE --add-tiers`",
-                ));
-            match job.named {
-                true => Err(why),
-                false => Ok(FileReport::skipped_file_report(job.path, &why)),
-            }
-        }
         None => lexicon::import_lexicon(job, progress),
     }
-}
-
-/// Returns whether the titles of a table are those of changes of annotations.
-fn is_change_table(head: &[u8]) -> bool {
-    let text = String::from_utf8_lossy(head);
-    let titles = text.trim_start_matches('\u{feff}').lines().next().unwrap_or_default();
-    let titles: Vec<String> = titles
-        .split([',', ';', '\t'])
-        .map(|title| title.trim().trim_matches('"').to_lowercase())
-        .collect();
-    ["recording", "tier", "value"]
-        .iter()
-        .all(|name| titles.iter().any(|title| title == name))
 }
 
 /// The number of bytes that hold the titles of the widest table of points, and some of its rows.

@@ -24,7 +24,7 @@ use super::import_lexicons::unlinked_glosses_finding;
 use super::import_report::EditOutcome;
 use super::readers::ParseFunction;
 use super::understood::TiersRead;
-use super::{FileReport, FileStatus, ImportJob, OwnEdits};
+use super::{FileReport, FileStatus, ImportJob, OwnEdit, OwnEdits};
 use crate::db::edits;
 use crate::db::people;
 use crate::db::stored_columns::{AnnotationOrigin, RecordOrigin, ValueState};
@@ -279,10 +279,9 @@ fn update_from_transcript(
     let updated = update::update_annotations(job, &sides, progress)?;
     notes.extend(before.settle_moved_annotations(job.connection, &updated.written)?);
     report.status = FileStatus::Updated;
-    let lost_edits = updated.edits.iter().filter(|edit| edit.outcome == EditOutcome::Lost);
-    let lost: Vec<String> = lost_edits.map(ToString::to_string).collect();
+    let is_lost = |edit: &OwnEdit| edit.outcome == EditOutcome::Lost;
     // With either of these options the user has decided about lost edits before.
-    if lost.is_empty() || matches!(own_edits, OwnEdits::Theirs | OwnEdits::Merge) {
+    if !updated.edits.iter().any(is_lost) || matches!(own_edits, OwnEdits::Theirs | OwnEdits::Merge) {
         job.connection.execute_batch("RELEASE edits")?;
         let ours = updated.written.clone();
         report
@@ -304,34 +303,7 @@ fn update_from_transcript(
     // Rolling back alone would leave the savepoint open.
     job.connection.execute_batch("ROLLBACK TO edits; RELEASE edits")?;
     (job.counts, job.inventories) = (counts, inventories);
-    let many = match lost.len() {
-        1 => "an edit".to_owned(),
-        many => format!("{many} edits"),
-    };
-    report.edits = updated.edits;
-    let mut lines: Vec<ReportFinding> = Vec::new();
-    if own_edits == OwnEdits::Mine {
-        report.status = FileStatus::Unchanged;
-        lines.push(ReportFinding::finding_note(format!(
-            "it would take back {many} of yours: the recording stays as it is"
-        )));
-        for edit in &mut report.edits {
-            edit.outcome = EditOutcome::Conflict;
-        }
-    } else {
-        report.status = FileStatus::Refused;
-        lines.push(ReportFinding::finding_error(
-            format!("it was changed since it was imported, and would take back {many} of yours"),
-            ErrorRemedy::choice_remedy(
-                RemedyChoice::Side,
-                "import it again with --merge (your edits and the file's changes; yours where both changed \
-             the same annotation), --theirs (the file), or --mine (your edits)",
-            ),
-        ));
-        update::pass_first_lines(&lost, &mut |line| lines.push(ReportFinding::finding_note(line)));
-    }
-    // The reason of the refusal matters more than the oddities that were found before it.
-    report.findings.splice(0..0, lines);
+    report.refuse_own_edits(own_edits, updated.edits);
     Ok(())
 }
 

@@ -5,9 +5,10 @@ use std::fmt;
 use std::path::Path;
 
 use chereme_motion::RecordingInstant;
-use chereme_sign::ErrorRemedy;
+use chereme_sign::{ErrorRemedy, RemedyChoice};
 use serde::Serialize;
 
+use super::OwnEdits;
 use super::import_joining::{FileJoin, JoinedRecording};
 use super::understood::FileInterpretation;
 use crate::error::CorpusError;
@@ -254,6 +255,76 @@ impl FileReport {
             remedy: error.error_remedy(),
         });
         report
+    }
+}
+
+impl FileReport {
+    /// Leaves the corpus as it is because of edits that the file would take back, and says which.
+    pub(super) fn refuse_own_edits(&mut self, own_edits: OwnEdits, edits: Vec<OwnEdit>) {
+        let lost_edits = edits.iter().filter(|edit| edit.outcome == EditOutcome::Lost);
+        let lost: Vec<String> = lost_edits.map(ToString::to_string).collect();
+        let many = match lost.len() {
+            1 => "an edit".to_owned(),
+            many => format!("{many} edits"),
+        };
+        self.edits = edits;
+        let mut lines: Vec<ReportFinding> = Vec::new();
+        if own_edits == OwnEdits::Mine {
+            self.status = FileStatus::Unchanged;
+            lines.push(ReportFinding::finding_note(format!(
+                "it would take back {many} of yours: the recording stays as it is"
+            )));
+            for edit in &mut self.edits {
+                edit.outcome = EditOutcome::Conflict;
+            }
+        } else {
+            self.status = FileStatus::Refused;
+            lines.push(ReportFinding::finding_error(
+                format!("it was changed since it was imported, and would take back {many} of yours"),
+                ErrorRemedy::choice_remedy(
+                    RemedyChoice::Side,
+                    "import it again with --merge (your edits and the file's changes; yours where both changed \
+             the same annotation), --theirs (the file), or --mine (your edits)",
+                ),
+            ));
+            pass_first_lines(&lost, &mut |line| lines.push(ReportFinding::finding_note(line)));
+        }
+        // The reason of the refusal matters more than the oddities that were found before it.
+        self.findings.splice(0..0, lines);
+    }
+
+    /// Adds the edits about which the user has decided, and the outcome of each.
+    pub(super) fn add_own_edits(&mut self, edits: Vec<OwnEdit>) {
+        let outcomes = |outcome| {
+            let edits = edits.iter().filter(move |edit| edit.outcome == outcome);
+            edits.map(ToString::to_string).collect::<Vec<_>>()
+        };
+        let warn = |remedy: ErrorRemedy| move |text: String| ReportFinding::finding_warning(text, remedy.clone());
+        let lost = warn(ErrorRemedy::command_remedy("`chereme undo` takes the import back"));
+        pass_first_lines(&outcomes(EditOutcome::Lost), &mut |text| self.findings.push(lost(text)));
+        let conflict = warn(ErrorRemedy::command_remedy(
+            "`chereme conflicts CORPUS` lists both candidates; decide there",
+        ));
+        pass_first_lines(&outcomes(EditOutcome::Conflict), &mut |text| {
+            self.findings.push(conflict(text))
+        });
+        let mut note = |text: String| self.findings.push(ReportFinding::finding_note(text));
+        pass_first_lines(&outcomes(EditOutcome::Kept), &mut note);
+        self.edits = edits;
+    }
+}
+
+/// The largest number of changes that are listed one by one.
+const MAX_LISTED_CHANGES: usize = 20;
+
+/// Passes on the first lines of many, and the number of remaining ones.
+pub(super) fn pass_first_lines(lines: &[String], take: &mut dyn FnMut(String)) {
+    for line in lines.iter().take(MAX_LISTED_CHANGES) {
+        take(line.clone());
+    }
+    let more = lines.len().saturating_sub(MAX_LISTED_CHANGES);
+    if more > 0 {
+        take(format!("and {more} more"));
     }
 }
 

@@ -8,6 +8,7 @@ mod elan;
 mod import_again;
 mod import_bvh;
 mod import_captured;
+mod import_changes;
 mod import_clock;
 pub(crate) mod import_eaf;
 mod import_film;

@@ -14,7 +14,9 @@ use chereme_sign::ErrorRemedy;
 
 use super::import_unread::begins_with_text;
 pub(super) use super::import_unread::unread_format_error;
-use super::{FileReport, ImportJob, elan, import_bvh, import_captured, import_eaf, import_film, import_notated};
+use super::{
+    FileReport, ImportJob, elan, import_bvh, import_captured, import_changes, import_eaf, import_film, import_notated,
+};
 use crate::error::{CorpusError, CorpusResult};
 use crate::notation::NotationFormat;
 use crate::progress::ProgressReceiver;
@@ -101,7 +103,8 @@ const MARKERS_NOUN: &str = "markers";
 const MOVEMENT_NOUN: &str = "movement";
 
 /// The kinds in the order in which an import reads them. Annotations come after movement, so that they find their
-/// recordings and values; films come after annotations, because annotation files name them; templates come last, for
+/// recordings and values; films come after annotations, because annotation files name them; tables of
+/// annotations need the recordings of all other files; templates come last, for
 /// the recordings that still have no tiers.
 pub(super) static FILE_READERS: &[FileReader] = &[
     FileReader {
@@ -172,7 +175,7 @@ pub(super) static FILE_READERS: &[FileReader] = &[
         endings: &["csv", "tsv"],
         kind: "lexicon",
         holds: "lexicons, markers, faces, tables of annotations",
-        looks: always,
+        looks: |path| !import_changes::is_change_table(path),
         keeps_inventories: false,
         contents: FileContentUse::Other(import_captured::import_table),
     },
@@ -275,6 +278,14 @@ pub(super) static FILE_READERS: &[FileReader] = &[
         looks: always,
         keeps_inventories: true,
         contents: FileContentUse::Other(import_film::import_film),
+    },
+    FileReader {
+        endings: &["csv", "tsv", "txt"],
+        kind: import_changes::CHANGE_TABLE_KIND,
+        holds: "tables of annotations of several recordings",
+        looks: import_changes::is_change_table,
+        keeps_inventories: true,
+        contents: FileContentUse::Other(import_changes::import_change_table),
     },
     FileReader {
         endings: &["etf"],
@@ -401,18 +412,22 @@ mod tests {
     use crate::db::stored_recordings::CAPTURE_FILE_KINDS;
     use crate::words::localized_message;
 
+    const CHANGE_TABLE: &str = import_changes::CHANGE_TABLE_KIND;
+
     #[test]
     fn every_extension_has_one_kind_and_annotations_are_read_after_movement() {
         let mut all: Vec<&str> = FILE_READERS.iter().flat_map(|it| it.endings).copied().collect();
-        // The root element of an .xml determines its kind.
-        let first = all.iter().position(|ending| *ending == "xml");
-        all.remove(first.expect("an ending"));
+        // The root element of an .xml determines its kind, and the titles of a table.
+        for shared in ["xml", "csv", "tsv", "txt"] {
+            let first = all.iter().position(|ending| *ending == shared);
+            all.remove(first.expect("an ending"));
+        }
         let many = all.len();
         all.sort_unstable();
         all.dedup();
         assert_eq!(all.len(), many);
         let place = |kind: &str| FILE_READERS.iter().position(|it| it.kind == kind);
-        let order = ["bvh", "pose", "ecv", "eaf", "pfsx", "film", "etf"].map(place);
+        let order = ["bvh", "pose", "ecv", "eaf", "pfsx", "film", CHANGE_TABLE, "etf"].map(place);
         assert!(order.is_sorted() && order[0].is_some(), "{order:?}");
         assert_eq!(find_reader_index(Path::new("A/TAKE.EAF")), place("eaf"));
         assert_eq!(find_reader_index(Path::new("a.docx")), None);

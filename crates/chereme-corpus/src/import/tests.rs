@@ -2,6 +2,7 @@
 
 mod again;
 mod captured;
+mod changes;
 mod film;
 mod foreign;
 mod joining;

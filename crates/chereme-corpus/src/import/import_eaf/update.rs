@@ -10,20 +10,16 @@ use chereme_formats::compare::renamed_tiers;
 use chereme_formats::eaf::eaf_convert::{AnnotationAddress, AnnotationTranscript, TranscriptAnnotation};
 use chereme_formats::roles::TierGuess;
 use chereme_motion::RecordingInstant;
-use chereme_sign::ErrorRemedy;
 use chereme_sign::TierStereotype;
 
 use super::{FileReport, ImportJob, annotation_row, with_coded_state};
 use crate::db::stored_columns::AnnotationOrigin;
 use crate::db::stored_tiers::{self, AnnotationRow, TierRow};
 use crate::error::CorpusResult;
-use crate::import::import_report::{AnnotationSide, EditOutcome, OwnEdit};
+use crate::import::import_report::{AnnotationSide, EditOutcome, OwnEdit, pass_first_lines};
 use crate::import::understood::ReimportChanges;
 use crate::progress::ProgressReceiver;
 use crate::report_finding::ReportFinding;
-
-/// The largest number of changes that are listed one by one.
-const MAX_LISTED_CHANGES: usize = 20;
 
 /// The result of an update.
 pub(super) struct EafUpdateResult {
@@ -630,36 +626,8 @@ impl EafUpdateResult {
         for name in sides.known.keys().filter(|name| !names.contains(name.as_str())) {
             note(format!("the tier {name:?}, which the file has not, is kept"));
         }
-        let outcomes = |outcome| {
-            let edits = self.edits.iter().filter(move |edit| edit.outcome == outcome);
-            edits.map(ToString::to_string).collect::<Vec<_>>()
-        };
-        let warn = |remedy: ErrorRemedy| move |text: String| ReportFinding::finding_warning(text, remedy.clone());
-        let lost = warn(ErrorRemedy::command_remedy("`chereme undo` takes the import back"));
-        pass_first_lines(&outcomes(EditOutcome::Lost), &mut |text| {
-            report.findings.push(lost(text))
-        });
-        let conflict = warn(ErrorRemedy::command_remedy(
-            "`chereme conflicts CORPUS` lists both candidates; decide there",
-        ));
-        pass_first_lines(&outcomes(EditOutcome::Conflict), &mut |text| {
-            report.findings.push(conflict(text))
-        });
-        let mut note = |text: String| report.findings.push(ReportFinding::finding_note(text));
-        pass_first_lines(&outcomes(EditOutcome::Kept), &mut note);
         report.understood.changes = Some(self.changes);
-        report.edits = self.edits;
-    }
-}
-
-/// Passes on the first lines of many, and the number of remaining ones.
-pub(super) fn pass_first_lines(lines: &[String], take: &mut dyn FnMut(String)) {
-    for line in lines.iter().take(MAX_LISTED_CHANGES) {
-        take(line.clone());
-    }
-    let more = lines.len().saturating_sub(MAX_LISTED_CHANGES);
-    if more > 0 {
-        take(format!("and {more} more"));
+        report.add_own_edits(self.edits);
     }
 }
 

@@ -120,6 +120,15 @@ impl ChangeTableColumns {
         timed && !changes && (tier.is_some() || !self.tiers.is_empty())
     }
 
+    /// Returns whether the rows are changes of recordings that exist: they name a tier and a time or an action, and a
+    /// recording, an action or an annotation.
+    pub(super) fn holds_changes(&self) -> bool {
+        let [recording, tier, _, _, value, action, id, parent] = self.at;
+        let says = value.or(action).is_some();
+        let placed = self.start.is_some() || action.or(parent).is_some();
+        tier.is_some() && says && placed && recording.or(action).or(id).is_some()
+    }
+
     /// Writes points for the decimal commas of times, in a table whose cells are not separated by commas.
     pub(super) fn mend_commas(&self, table: &mut TableCells) {
         if table.delimiter == b',' {
@@ -247,7 +256,9 @@ fn parse_annotation_title(title: &str) -> Option<AnnotationTitle> {
         "tier name" | "acteur" | "nom de l acteur" | "piste" | "spur" => {
             return Some(AnnotationTitle::Named(1));
         }
-        "enregistrement" => return Some(AnnotationTitle::Named(0)),
+        "recording name" | "enregistrement" | "file" | "file name" | "file path" | "fichier" => {
+            return Some(AnnotationTitle::Named(0));
+        }
         "identifiant" => return Some(AnnotationTitle::Named(6)),
         "participant" => return Some(AnnotationTitle::Participant),
         "annotator" => return Some(AnnotationTitle::Idle),

@@ -25,15 +25,21 @@ pub fn is_export(head: &[u8]) -> bool {
     let Ok(table) = TableCells::read_part(whole_lines(&head), true, &mut FindingTally::default()) else {
         return false;
     };
-    let titled = |name: &str| {
-        table
-            .header
-            .iter()
-            .any(|title| normalize_tier_name(title).starts_with(name))
-    };
+    let is_begin = |title: &String| normalize_tier_name(title).starts_with("begin time");
     let columns = ChangeTableColumns::of_titles(&table.header, &mut FindingTally::default());
     ChangeTableColumns::of_export(&table).is_some()
-        || !titled("recording") && !titled("enregistrement") && (titled("begin time") || columns.holds_annotations())
+        || columns.at[0].is_none() && (table.header.iter().any(is_begin) || columns.holds_annotations())
+}
+
+/// Reports whether a text begins as a table of changes of annotations, whose titles name tiers with their recordings,
+/// actions or ids.
+#[must_use]
+pub fn is_change_table(head: &[u8]) -> bool {
+    let text = blank_comments(head).0;
+    let table = TableCells::read_part(whole_lines(&text), true, &mut FindingTally::default());
+    let holds_changes =
+        |table: TableCells| ChangeTableColumns::of_titles(&table.header, &mut FindingTally::default()).holds_changes();
+    table.is_ok_and(holds_changes) && !is_export(head)
 }
 
 /// Reads tiers with their annotations; of annotations that overlap on a tier the first ends earlier.

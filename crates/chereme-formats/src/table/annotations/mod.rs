@@ -12,7 +12,7 @@ mod annotations_columns;
 mod annotations_export;
 mod moment;
 
-pub use annotations_export::{is_export, read_elan_table, write_elan_table};
+pub use annotations_export::{is_change_table, is_export, read_elan_table, write_elan_table};
 pub use moment::{MomentError, TableMoment, TableTimeUnit};
 
 use super::table_cells::{TableCells, TableError, TableRow as RawRow, join_column_names};
