@@ -1,6 +1,7 @@
 ## Messages: `{ $name }` is a variable part.
 
 message-command-annotate-nothing-written-would = nothing is written; it would be:
+message-command-annotate-query-of-tokens = the query is about tokens: recordings without one are left out
 line-command-annotate-added-tier = added tier:{ $id }, { $name }
 line-command-annotate-tiers-added-to-recording = added to { $recording }: { $tiers }
 line-command-annotate-recording-refuses = { $recording } refuses: { $why }
@@ -30,7 +31,7 @@ help-command-annotate-recording-named-tiers-annotations-recording-3 = The record
 help-command-annotate-move-boundaries-nearest-frames-recording-s = Move boundaries to the nearest frames of the recording's movement
 help-command-annotate-treatment-annotations-in-way-one-added = The treatment of annotations in the way of one that is added or moved
 help-command-annotate-report-ids-all-annotations-without-at = Report the ids of all annotations; without it of at most 100 in JSON, and of at most 20 in text
-help-command-annotate-in-recordings-of-query = In all recordings with a token that a query finds, as in `chereme search`
+help-command-annotate-in-recordings-of-query = In all recordings that a query means: by signer=, file=, recording= and signer.NAME=, or else with a token that it finds
 help-command-annotate-add-tiers-of-table = Add the tiers that the table needs and its recordings lack; their names say what they are about
 help-command-annotate-in-all-recordings = In all recordings of the corpus
 help-command-annotate-skip-refusing-recordings = Leave out recordings that refuse the change; without it nothing is done if one of them refuses
@@ -116,7 +117,7 @@ help-command-annotate-annotator-removes-name = The annotator; "" removes the nam
 help-command-annotate-language-values-such-as-de-removes = The language of its values, such as de; "" removes it
 help-command-annotate-subject-annotations-word-before-dot-as = The subject of its annotations; the word before the dot, as in right.placement, is their hand
 help-command-annotate-each-call-one-operation-chereme-undo = Each call is one operation that `chereme undo` takes back. A change that would break a rule of the tiers is refused, with a remedy. A time is 1.5, 1.5s, 1500ms, 0:01.500 or a frame such as f90. A tier is tier:12, or its name with --in RECORDING; an annotation is annotation:12, or its id in the file from which it was imported.
-help-command-annotate-work-on-tiers-of-several = Work on tiers (add-tier, add-tiers, tier, copy-tier, remove-tier, shift) takes several recordings, too: --in 'S07*' by name, --in signer:S07, --where QUERY by their tokens, or --all. A tier is then a name, where * stands for any letters; recordings without it stay as they are. If a recording refuses, nothing is done, unless --skip leaves it out.
+help-command-annotate-work-on-tiers-of-several = Work on tiers (add-tier, add-tiers, tier, copy-tier, remove-tier, shift) takes several recordings, too: --in 'S07*' by name, --in signer:S07, --where QUERY, or --all. A tier is then a name, where * stands for any letters; recordings without it stay as they are. If a recording refuses, nothing is done, unless --skip leaves it out.
 help-command-annotate-actions-on-annotations-add-set-split = Actions on annotations: add, set, split, merge, reorder, remove, replace, shift, paste, from. On tiers: add-tier, add-tiers, tier, copy-tier, remove-tier. On other things: recording, signer, sign, cite, prefer.
 help-command-annotate-dependent-tiers-shifted-too-without-tier = Dependent tiers are shifted, too. Without --tier all tiers of the recording are shifted.
 help-command-annotate-columns-recording-tier-start-end-duration = Columns: recording, tier, start, end, duration, value, action (add, set, remove), id, parent. The title (start_ms, `end [s]`), the number (1500ms) or --unit gives the unit of times; without any of them times are in seconds. The tab-delimited text that ELAN exports is such a table, with and without titles.

@@ -1,6 +1,7 @@
 ## Messages: `{ $name }` is a variable part.
 
 message-command-annotate-nothing-written-would = rien n’est écrit ; ce serait :
+message-command-annotate-query-of-tokens = la requête porte sur des occurrences : les enregistrements sans occurrence sont laissés de côté
 line-command-annotate-added-tier = ajouté : tier:{ $id }, { $name }
 line-command-annotate-tiers-added-to-recording = ajouté à { $recording } : { $tiers }
 line-command-annotate-recording-refuses = { $recording } refuse : { $why }
@@ -30,7 +31,7 @@ help-command-annotate-recording-named-tiers-annotations-recording-3 = L’enregi
 help-command-annotate-move-boundaries-nearest-frames-recording-s = Amener les limites aux images les plus proches du mouvement
 help-command-annotate-treatment-annotations-in-way-one-added = Le sort des annotations qui gênent celle qu’on ajoute ou déplace
 help-command-annotate-report-ids-all-annotations-without-at = Donner les numéros de toutes les annotations ; sinon de 100 au plus en JSON, et de 20 au plus en texte
-help-command-annotate-in-recordings-of-query = Dans tous les enregistrements dont une requête trouve une occurrence, comme dans `chereme search`
+help-command-annotate-in-recordings-of-query = Dans tous les enregistrements qu’une requête désigne : par signer=, file=, recording= et signer.NOM=, ou sinon par une occurrence qu’elle trouve
 help-command-annotate-add-tiers-of-table = Ajouter les acteurs dont la table a besoin et qui manquent à ses enregistrements ; leur nom dit de quoi ils parlent
 help-command-annotate-in-all-recordings = Dans tous les enregistrements du corpus
 help-command-annotate-skip-refusing-recordings = Écarter les enregistrements qui refusent la modification ; sans cela, rien n’est fait si l’un d’eux refuse
@@ -116,7 +117,7 @@ help-command-annotate-annotator-removes-name = L’annotateur ; "" enlève le no
 help-command-annotate-language-values-such-as-de-removes = La langue de ses valeurs, comme de ; "" l’enlève
 help-command-annotate-subject-annotations-word-before-dot-as = L’objet de ses annotations ; le mot avant le point, comme dans right.placement, est leur main
 help-command-annotate-each-call-one-operation-chereme-undo = Chaque appel est une opération que `chereme undo` annule. Une modification qui romprait une règle des acteurs est refusée, avec un remède. Un temps s’écrit 1.5, 1.5s, 1500ms, 0:01.500 ou comme image, par exemple f90. Un acteur est tier:12, ou son nom avec --in RECORDING ; une annotation est annotation:12, ou son id dans le fichier dont elle a été importée.
-help-command-annotate-work-on-tiers-of-several = Le travail sur les acteurs (add-tier, add-tiers, tier, copy-tier, remove-tier, shift) se fait aussi dans plusieurs enregistrements : --in 'S07*' par leur nom, --in signer:S07, --where REQUÊTE par leurs occurrences, ou --all. Un acteur est alors un nom, où * remplace des lettres quelconques ; les enregistrements sans cet acteur restent comme ils sont. Si un enregistrement refuse, rien n’est fait, à moins que --skip ne l’écarte.
+help-command-annotate-work-on-tiers-of-several = Le travail sur les acteurs (add-tier, add-tiers, tier, copy-tier, remove-tier, shift) se fait aussi dans plusieurs enregistrements : --in 'S07*' par leur nom, --in signer:S07, --where REQUÊTE, ou --all. Un acteur est alors un nom, où * remplace des lettres quelconques ; les enregistrements sans cet acteur restent comme ils sont. Si un enregistrement refuse, rien n’est fait, à moins que --skip ne l’écarte.
 help-command-annotate-actions-on-annotations-add-set-split = Actions sur les annotations : add, set, split, merge, reorder, remove, replace, shift, paste, from. Sur les acteurs : add-tier, add-tiers, tier, copy-tier, remove-tier. Sur le reste : recording, signer, sign, cite, prefer.
 help-command-annotate-dependent-tiers-shifted-too-without-tier = Les acteurs dépendants suivent. Sans --tier, tous les acteurs de l’enregistrement se déplacent.
 help-command-annotate-columns-recording-tier-start-end-duration = Colonnes : recording, tier, start, end, duration, value, action (add, set, remove), id, parent. Le titre (start_ms, `end [s]`), le nombre (1500ms) ou --unit donne l’unité des temps ; sinon les temps sont en secondes. Le texte à tabulations qu’ELAN exporte est une telle table, avec ou sans titres.

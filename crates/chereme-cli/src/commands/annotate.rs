@@ -25,7 +25,7 @@ use crate::streams;
 /// --in RECORDING; an annotation is annotation:12, or its id in the file from which it was imported.
 ///
 /// Work on tiers (add-tier, add-tiers, tier, copy-tier, remove-tier, shift) takes several recordings, too: --in 'S07*' by
-/// name, --in signer:S07, --where QUERY by their tokens, or --all. A tier is then a name, where * stands for any letters;
+/// name, --in signer:S07, --where QUERY, or --all. A tier is then a name, where * stands for any letters;
 /// recordings without it stay as they are. If a recording refuses, nothing is done, unless --skip leaves it out.
 ///
 /// Actions on annotations: add, set, split, merge, reorder, remove, replace, shift, paste, from. On tiers: add-tier,

@@ -173,7 +173,7 @@ pub(super) struct TierPeople {
 /// The recordings of work on tiers, if there are several.
 #[derive(Debug, clap::Args)]
 pub(super) struct TierRoundArgs {
-    /// In all recordings with a token that a query finds, as in `chereme search`
+    /// In all recordings that a query means: by signer=, file=, recording= and signer.NAME=, or else with a token that it finds
     #[arg(long = "where", value_name = "QUERY", conflicts_with = "all")]
     query: Option<String>,
     /// In all recordings of the corpus
@@ -235,6 +235,9 @@ pub(super) fn run_tier_round(
     let report = with_progress_bar(|progress| corpus.work_on_tiers(scope, work, options, progress))?;
     if report.dry_run {
         output.write_output_line("nothing is written; it would be:")?;
+    }
+    if report.only_with_tokens {
+        output.write_output_line("the query is about tokens: recordings without one are left out")?;
     }
     for row in &report.recordings {
         let name = format!("recording:{} {:?}", row.recording, row.name);

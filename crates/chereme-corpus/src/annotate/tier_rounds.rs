@@ -24,7 +24,7 @@ use crate::words::history_words::operation_sentence;
 pub enum TierRoundScope {
     /// All of the corpus.
     All,
-    /// Those with a token that a query finds.
+    /// Those that a query means, as [`Corpus::recordings_of_query`] finds them.
     Query(String),
     /// Those of a signer, or with this name, where `*` stands for any letters; or `recording:3`.
     Pattern(String),
@@ -105,6 +105,8 @@ pub struct TierRoundReport {
     pub recordings: Vec<TierRoundRow>,
     /// How many recordings have nothing to change.
     pub untouched: u64,
+    /// Whether the query is about tokens, so that recordings without one are left out.
+    pub only_with_tokens: bool,
 }
 
 impl TierRoundReport {
@@ -146,6 +148,10 @@ impl Corpus {
             dry_run: options.dry_run,
             recordings: Vec::new(),
             untouched: 0,
+            only_with_tokens: match scope {
+                TierRoundScope::Query(query) => self.recordings_without_tokens(query)?.is_none(),
+                _ => false,
+            },
         };
         let mut is_tried = false;
         let carry = |connection: &Connection, progress: &mut ProgressReceiver<'_>| {

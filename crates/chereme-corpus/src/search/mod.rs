@@ -21,6 +21,7 @@ mod search_finding;
 mod search_findings;
 mod search_known;
 mod search_plan;
+mod search_recordings;
 mod search_steps;
 mod search_tally;
 mod search_texts;
@@ -107,7 +108,8 @@ impl Corpus {
         self.evaluate_with_context(query, progress, &mut |ask, query| answer_query(ask, query, options))
     }
 
-    /// Returns the recordings with a token that a query finds.
+    /// Returns the recordings that a query means: those with a token that it finds, or if all its conditions are about
+    /// recordings, their files, signers and what is said of these, also those without a token.
     ///
     /// # Errors
     /// Fails if the query cannot be read; [`CorpusError::Stopped`].
@@ -116,8 +118,18 @@ impl Corpus {
         query: &str,
         progress: &mut ProgressReceiver<'_>,
     ) -> CorpusResult<BTreeSet<i64>> {
+        if let Some(found) = self.recordings_without_tokens(query)? {
+            return Ok(found);
+        }
         let tokens = self.tokens_found(query, progress)?;
         Ok(tokens.iter().filter_map(|token| token.recording_id).collect())
+    }
+
+    /// Returns the recordings of a query about recordings alone; `None` if it is about tokens.
+    pub(crate) fn recordings_without_tokens(&self, query: &str) -> CorpusResult<Option<BTreeSet<i64>>> {
+        let connection = self.store.read_connection();
+        let parsed = saved_search::parse_query_with_saved(connection, query)?;
+        search_recordings::find_recordings(connection, &parsed.root)
     }
 
     /// Returns the tokens that a query finds, in the order of their rows.

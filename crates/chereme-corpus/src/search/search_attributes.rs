@@ -71,7 +71,7 @@ pub(super) fn plan_attribute_test(
 }
 
 /// Returns the attributes that a name means: those of tables, otherwise the measure of that name.
-fn meant_attribute_names(all: &[String], name: &str) -> Vec<String> {
+pub(super) fn meant_attribute_names(all: &[String], name: &str) -> Vec<String> {
     let with_key = |key: &str| -> Vec<String> {
         let named = all.iter().filter(|own| attribute_name_key(own) == key);
         named.cloned().collect()
@@ -110,12 +110,12 @@ pub(super) fn load_token_attributes(
     Ok(stored_attributes::attributes_by_token(ask.connection, &names)?)
 }
 
-fn names_one(comparison: &ValueComparison) -> bool {
+pub(super) fn names_one(comparison: &ValueComparison) -> bool {
     let named = |value: &QueryValue| matches!(value.wanted, WantedValue::Named(_));
     comparison.values.iter().any(named)
 }
 
-fn is_attribute_match(row: &AttributeRow, value: &QueryValue, operator: ComparisonOperator) -> bool {
+pub(super) fn is_attribute_match(row: &AttributeRow, value: &QueryValue, operator: ComparisonOperator) -> bool {
     match &value.wanted {
         WantedValue::Present => true,
         WantedValue::Missing(_) | WantedValue::Features(_) | WantedValue::Steps(_) => false,

@@ -148,6 +148,9 @@ impl TierRoundWindow {
             &[("n", &changing), ("refusing", &refusing), ("same", &report.untouched)],
         );
         ui.strong(would);
+        if report.only_with_tokens {
+            ui.label(seen.say_text(words::ONLY_WITH_TOKENS));
+        }
         if refusing > 0 && !self.skip {
             ui.label(RichText::new(seen.say_text(words::REFUSED)).color(colours.trouble));
         }

@@ -36,6 +36,7 @@ texts! {
     SKIP: "Leave out recordings that refuse", "Laisser de côté ceux qui refusent";
     TRY: "Show what would change", "Montrer ce qui changerait";
     CARRY_OUT: "Carry out", "Exécuter";
+    ONLY_WITH_TOKENS: "The query is about tokens: recordings without one are left out.", "La requête porte sur des occurrences : les enregistrements sans occurrence sont laissés de côté.";
     WOULD: "Would change: {n} · refuse: {refusing} · stay as they are: {same}", "Changeraient : {n} · refusent : {refusing} · inchangés : {same}";
     ROW: "{name}: {tiers} ({annotations})", "{name} : {tiers} ({annotations})";
     REFUSES: "{name} refuses: {why}", "{name} refuse : {why}";

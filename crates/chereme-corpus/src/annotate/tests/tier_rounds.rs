@@ -167,3 +167,62 @@ fn a_dry_run_that_is_stopped_gives_no_half_of_a_list() {
     let report = work_on(&mut corpus, &TierRoundScope::All, &work, options).expect("tried");
     assert_eq!(report.recordings.len(), 3);
 }
+
+#[test]
+fn a_query_about_recordings_finds_those_without_tokens() {
+    let (_folder, mut corpus) = three_recordings();
+    let fill = |connection: &Connection| {
+        let ben = stored_recordings::signer_named(connection, "Ben", None)?;
+        connection.execute("UPDATE recording SET signer_id = ?1 WHERE name = 'Other'", [ben])?;
+        connection.execute("UPDATE tier SET participant = 'Ben' WHERE recording_id = 2", [])?;
+        connection.execute_batch(
+            "INSERT INTO source_file (recording_id, kind, name, path, hash) VALUES (3, 'eaf', 'other.eaf', 'other.eaf', 'x');
+             INSERT INTO person_alias (signer_id, name) VALUES (2, 'B.');
+             INSERT INTO person_attribute (signer_id, name, text, number, audience)
+             VALUES (2, 'region', 'North', NULL, 'nobody'), (2, 'age', '41', 41, 'nobody')",
+        )?;
+        Ok(((), String::new()))
+    };
+    corpus.store.named_operation("fill", fill).expect("filled");
+    annotate(&mut corpus, "add G 0-100 BOL").expect("added");
+    let mut found = |query: &str| {
+        let mut hear = ignore_progress_step;
+        let ids = corpus.recordings_of_query(query, &mut ProgressReceiver::new(&mut hear));
+        ids.map(|ids| ids.into_iter().collect::<Vec<i64>>())
+    };
+    for (query, wanted) in [
+        ("signer=Ben", &[2, 3][..]),
+        ("signer=B.", &[2, 3]),
+        ("signer!=Anna", &[3]),
+        ("not signer=ben", &[1]),
+        ("signer.region=north", &[2, 3]),
+        ("signer.age>40 recording=Take*", &[2]),
+        ("signer.region=unset", &[1]),
+        ("file=other.eaf or recording=1", &[1, 3]),
+        ("file=unset", &[1, 2]),
+        ("recording!=Other (signer=Anna)", &[1, 2]),
+        // A condition on tokens leaves out the recordings without one.
+        ("gloss=BOL", &[1]),
+        ("gloss=BOL or recording=Other", &[1]),
+        ("", &[1]),
+    ] {
+        assert_eq!(
+            found(query).unwrap_or_else(|error| panic!("{query}: {error}")),
+            wanted,
+            "{query}"
+        );
+    }
+    for (query, wrong) in [
+        ("signer=Zoe", "no signer is called"),
+        ("signer.shoe=3", "no field or attribute"),
+    ] {
+        let error = found(query).expect_err(query).to_string();
+        assert!(error.contains(wrong), "{query}: {error}");
+    }
+    let work = TierRoundWork::Add(NewTier::new(RowName::Number(0), "new", TierRole::Free));
+    for (query, only_with_tokens) in [("signer=Ben", false), ("gloss=BOL", true)] {
+        let scope = TierRoundScope::Query(query.to_owned());
+        let report = work_on(&mut corpus, &scope, &work, TierRoundOptions::default()).expect("done");
+        assert_eq!(report.only_with_tokens, only_with_tokens, "{query}");
+    }
+}

@@ -1,11 +1,15 @@
 //! Rows that search results read in addition to the index.
 
+use std::collections::BTreeMap;
+
 use chereme_sign::tier::AnnotatedHands;
 use chereme_sign::{SignComponent, SignPhase, TierRole};
 use rusqlite::{Connection, OptionalExtension, Row};
 use serde::Serialize;
 
+use crate::db::people::SIGNER_ATTRIBUTE_PREFIX;
 use crate::db::signs::IS_OPINION_SQL;
+use crate::db::stored_attributes::AttributeRow;
 use crate::db::stored_columns::{
     RecordOrigin, ValueState, read_phase_columns, read_role_columns, read_word_column, word_or_null,
 };
@@ -269,6 +273,51 @@ pub(crate) fn tokens_of_confidence(connection: &Connection, passes: &dyn Fn(f64)
     tokens.sort_unstable();
     tokens.dedup();
     Ok(tokens)
+}
+
+/// Something that is known of recordings.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum RecordingFact {
+    Name,
+    File,
+    /// All names of those who sign or take part.
+    Signer,
+    /// What is said of them.
+    Attribute,
+}
+
+/// What is known of recordings, by row.
+pub(crate) type SaidOfRecordings = BTreeMap<i64, Vec<AttributeRow>>;
+
+/// Returns what is known of all recordings; the number of a name is that of its row.
+pub(crate) fn load_recording_facts(connection: &Connection, fact: RecordingFact) -> CorpusResult<SaidOfRecordings> {
+    const PEOPLE_SQL: &str = "(SELECT id recording_id, signer_id FROM recording UNION
+        SELECT i.recording_id, s.id FROM tier i JOIN signer s ON s.name = i.participant) w";
+    let sql = match fact {
+        RecordingFact::Name => "SELECT id, '', name, id FROM recording".to_owned(),
+        RecordingFact::File => {
+            "SELECT recording_id, '', name, NULL FROM source_file WHERE recording_id IS NOT NULL".to_owned()
+        }
+        RecordingFact::Signer => format!(
+            "SELECT w.recording_id, '', n.name, n.id FROM {PEOPLE_SQL} JOIN (SELECT id, name FROM signer
+             UNION ALL SELECT signer_id, name FROM person_alias) n ON n.id = w.signer_id"
+        ),
+        RecordingFact::Attribute => format!(
+            "SELECT w.recording_id, '{SIGNER_ATTRIBUTE_PREFIX}' || v.name, v.text, v.number
+             FROM {PEOPLE_SQL} JOIN person_attribute v ON v.signer_id = w.signer_id"
+        ),
+    };
+    let mut statement = connection.prepare_cached(&sql)?;
+    let mut rows = statement.query([])?;
+    let mut said = SaidOfRecordings::new();
+    while let Some(row) = rows.next()? {
+        said.entry(row.get(0)?).or_default().push(AttributeRow {
+            name: row.get(1)?,
+            text: row.get(2)?,
+            number: row.get(3)?,
+        });
+    }
+    Ok(said)
 }
 
 /// The readings of a recording that a relation looks at.
