@@ -365,7 +365,7 @@ pub(crate) fn collect_search_hits(
         let mut components = BTreeMap::new();
         search_answers::coded_of_token(ask.connection, token, |row| add_value(&mut components, &row))?;
         let mut opinions = Vec::new();
-        if ask.opinions.get() {
+        if ask.opinions.get() || ask.asks_sources.get() {
             search_answers::visit_token_opinions(ask.connection, token, |row, opinion| {
                 opinions.push(HitOpinion {
                     field: field_of_row(row),

@@ -8,7 +8,7 @@ use chereme_sign::ErrorRemedy;
 use chereme_sign::SignComponent;
 use chereme_sign::query::{
     ComparisonOperator, MissingReason, QueryError, QueryExpression, QueryPlace, QueryTest, QueryValue, TestSubject,
-    TimeField, TimeTest, ValueComparison, WantedValue, WholeTokenProperty,
+    TextPattern, TimeField, TimeTest, ValueComparison, WantedValue, WholeTokenProperty,
 };
 use chereme_sign::text::{fold_text, nearest_candidate};
 use rusqlite::Connection;
@@ -22,6 +22,7 @@ use super::search_curves;
 use super::search_finding::{FindingKind, QueryFinding};
 use super::search_known::{KnownReadings, KnownSigns};
 use super::search_plan::QueryPlan;
+use super::search_sources;
 use super::search_texts::TextGlob;
 use super::search_vocabulary::QueryVocabulary;
 use super::text_match;
@@ -39,6 +40,8 @@ pub(crate) struct QueryContext<'a> {
     pub(crate) vocabulary: Arc<QueryVocabulary>,
     /// Whether comparisons read opinions beside the values that count.
     pub(crate) opinions: Cell<bool>,
+    /// Whether a comparison asks who says its value, so that hits show the opinions.
+    pub(crate) asks_sources: Cell<bool>,
     pub(crate) notes: RefCell<BTreeSet<String>>,
     pub(crate) findings: RefCell<Vec<QueryFinding>>,
     /// The number of rows examined so far.
@@ -205,6 +208,10 @@ pub(crate) fn plan_comparison(ask: &QueryContext<'_>, test: &QueryTest) -> Query
             }
             ComponentTest::new(ask, field, comparison, range)?.plan_component_test(ask)
         }
+        TestSubject::Said(field, comparison, sources) => {
+            let range = test.subject_at.char_range();
+            search_sources::plan_said_value(ask, field, comparison, sources, range)
+        }
         TestSubject::Property(property, comparison) => self::plan_property(ask, *property, comparison),
         TestSubject::Whole(field, comparison) => text_match::plan_text_comparison(ask, *field, comparison),
         TestSubject::Words(..) | TestSubject::Fuzzy { .. } => text_match::words_plan(ask, test),
@@ -225,26 +232,13 @@ fn plan_property(
     property: WholeTokenProperty,
     comparison: &ValueComparison,
 ) -> QueryResult<QueryPlan> {
-    let exactly = comparison.operator == ComparisonOperator::Exactly;
     let values = comparison.values.iter();
     let plans = values.map(|value| match &value.wanted {
         WantedValue::Present => plan_has_property(ask, property),
         WantedValue::Missing(MissingReason::Unset) => Ok(plan_has_property(ask, property)?.negate_plan()),
         WantedValue::Missing(_) | WantedValue::Features(_) | WantedValue::Steps(_) => Ok(QueryPlan::select_none_plan()),
         WantedValue::Named(pattern) => {
-            let (glob, text) = if exactly {
-                (TextGlob::from_exact_pattern(pattern), pattern.to_string())
-            } else {
-                (TextGlob::from_whole_pattern(pattern), pattern.to_string())
-            };
-            let wanted = RequestedName {
-                glob,
-                exactly,
-                text: pattern.as_literal().map_or(text, str::to_owned),
-                literal: pattern.as_literal().is_some(),
-                value,
-            };
-            plan_named_property(ask, property, &wanted)
+            plan_named_property(ask, property, &RequestedName::new(comparison.operator, pattern, value))
         }
     });
     let any_plan = QueryPlan::disjoin_plans(plans.collect::<QueryResult<_>>()?);
@@ -264,7 +258,7 @@ fn plan_property(
 }
 
 /// A requested name.
-struct RequestedName<'a> {
+pub(super) struct RequestedName<'a> {
     glob: TextGlob,
     exactly: bool,
     text: String,
@@ -272,8 +266,31 @@ struct RequestedName<'a> {
     value: &'a QueryValue,
 }
 
-impl RequestedName<'_> {
-    fn is_requested_name(&self, name: &str) -> bool {
+impl<'a> RequestedName<'a> {
+    fn new(operator: ComparisonOperator, pattern: &TextPattern, value: &'a QueryValue) -> Self {
+        let exactly = operator == ComparisonOperator::Exactly;
+        Self {
+            glob: match exactly {
+                true => TextGlob::from_exact_pattern(pattern),
+                false => TextGlob::from_whole_pattern(pattern),
+            },
+            exactly,
+            text: pattern.as_literal().map_or_else(|| pattern.to_string(), str::to_owned),
+            literal: pattern.as_literal().is_some(),
+            value,
+        }
+    }
+
+    /// Returns the names among the values of a comparison.
+    pub(super) fn of_comparison(comparison: &'a ValueComparison) -> Vec<Self> {
+        let named = |value: &'a QueryValue| match &value.wanted {
+            WantedValue::Named(pattern) => Some(Self::new(comparison.operator, pattern, value)),
+            _ => None,
+        };
+        comparison.values.iter().filter_map(named).collect()
+    }
+
+    pub(super) fn is_requested_name(&self, name: &str) -> bool {
         if self.exactly {
             self.glob.matches_whole_text(name)
         } else {
@@ -361,12 +378,7 @@ fn plan_named_property(
         return plan_marked_property(ask, property, mark, wish);
     }
     if property == WholeTokenProperty::By {
-        let names = search_answers::annotator_names(ask.connection)?;
-        let all_names = names.into_iter().chain([DETECTOR_NAME.to_owned()]);
-        let mut known_names = all_names.clone();
-        if wish.literal && !known_names.any(|name| wish.is_requested_name(&name)) {
-            return Err(wish.unknown_name_failure("annotator", all_names));
-        }
+        check_annotator(ask, wish)?;
         return plan_annotators(ask, &|name| wish.is_requested_name(name));
     }
     let (field, kind, rows) = match property {
@@ -422,6 +434,17 @@ fn plan_marked_property(
         }
     }
     Ok(QueryPlan::Index(IndexProbe::from_reading_terms(matching_terms)))
+}
+
+/// Fails if a name is that of no annotator.
+pub(super) fn check_annotator(ask: &QueryContext<'_>, wish: &RequestedName<'_>) -> QueryResult<()> {
+    let names = search_answers::annotator_names(ask.connection)?;
+    let all_names = names.into_iter().chain([DETECTOR_NAME.to_owned()]);
+    let mut known_names = all_names.clone();
+    match !wish.literal || known_names.any(|name| wish.is_requested_name(&name)) {
+        true => Ok(()),
+        false => Err(wish.unknown_name_failure("annotator", all_names)),
+    }
 }
 
 /// Returns the plan for the tokens with values by annotators or detectors.

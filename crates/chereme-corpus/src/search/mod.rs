@@ -22,6 +22,7 @@ mod search_findings;
 mod search_known;
 mod search_plan;
 mod search_recordings;
+mod search_sources;
 mod search_steps;
 mod search_tally;
 mod search_texts;
@@ -272,6 +273,7 @@ fn with_index<T>(
         now: &now,
         vocabulary,
         opinions: Cell::new(false),
+        asks_sources: Cell::new(false),
         notes: Default::default(),
         findings: Default::default(),
         looked_at: Default::default(),

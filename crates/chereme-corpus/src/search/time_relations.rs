@@ -58,9 +58,11 @@ impl NeighbourRelation {
             TestSubject::Whole(field, _) | TestSubject::Words(field, _) | TestSubject::Fuzzy { field, .. } => {
                 texts_beside(ask, test, *field)?
             }
-            TestSubject::Property(..) | TestSubject::Time(..) | TestSubject::Attribute(..) | TestSubject::Curve(..) => {
-                Vec::new()
-            }
+            TestSubject::Said(..)
+            | TestSubject::Property(..)
+            | TestSubject::Time(..)
+            | TestSubject::Attribute(..)
+            | TestSubject::Curve(..) => Vec::new(),
         };
         Ok(Self {
             relation,

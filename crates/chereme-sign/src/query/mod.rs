@@ -24,7 +24,7 @@
 //! | alternatives | *terms* { `or` *terms* } |
 //! | terms | *term* { \[`and`\] *term* } |
 //! | term | `not` *term*, `(` *alternatives* `)`, *comparison*, *relation comparison*, *example*, *saved*, *text* |
-//! | comparison | *component* (`=` `!=` `==`) *values*; *property* (`=` `:` `!=` `==`) *values*; *textfield* (`=` `!=` `==`) *values*; *textfield* `:` *text* { `,` *text* }; *textfield* `~` *text* \[`~1` `~2`\]; *timefield* (`<` `<=` `>` `>=` `=`) *time*; *timefield* `=` \[*time*\]`..`\[*time*\]; `tier(`*text*`)` (`=` `!=` `==`) *values*; *attribute* (`=` `!=` `==`) *values*; *attribute* (`<` `<=` `>` `>=`) *number*; *attribute* `=` \[*number*\]`..`\[*number*\]; *curve* (`<` `<=` `>` `>=`) *number* \[`for` *time*\]; *curve* `=` \[*number*\]`..`\[*number*\] \[`for` *time*\] |
+//! | comparison | *component* (`=` `!=` `==`) *values* \[`{` *comparison* { *comparison* } `}`\]; *property* (`=` `:` `!=` `==`) *values*; *textfield* (`=` `!=` `==`) *values*; *textfield* `:` *text* { `,` *text* }; *textfield* `~` *text* \[`~1` `~2`\]; *timefield* (`<` `<=` `>` `>=` `=`) *time*; *timefield* `=` \[*time*\]`..`\[*time*\]; `tier(`*text*`)` (`=` `!=` `==`) *values*; *attribute* (`=` `!=` `==`) *values*; *attribute* (`<` `<=` `>` `>=`) *number*; *attribute* `=` \[*number*\]`..`\[*number*\]; *curve* (`<` `<=` `>` `>=`) *number* \[`for` *time*\]; *curve* `=` \[*number*\]`..`\[*number*\] \[`for` *time*\] |
 //! | curve | `nonmanual.`*name*, before a number |
 //! | attribute | `attribute.`*name*, `signer.`*name*, `attribute(`*text*`)`; the *name* alone before a number |
 //! | component | \[*phase*`.`\] \[*hand*`.`\] (`configuration` `placement` `movement` `orientation` `nonmanual`) \[`.`*part*\] |
@@ -156,6 +156,8 @@ Who says so: proposals and disputed values are read only where asked for
   proposed:yes                            a detector proposes something
   disputed:yes                            annotators say different things
   by=anna   by=detector   confidence>0.8  who, and how sure
+  configuration=U{by=anna}                who says this very value
+  placement=*{proposed:yes}               any of these four in the braces
 
 Relation to another annotation of the recording
   gloss=CHAT overlaps nonmanual.brows=raised

@@ -2,8 +2,8 @@
 
 use super::query_lex::{QueryCursor, WordContext};
 use super::query_tree::{
-    ComparisonOperator, QueryPlace, QueryTest, QueryValue, TestSubject, TextField, ValueComparison, WantedValue,
-    WholeTokenProperty,
+    ComparisonOperator, MissingReason, QueryPlace, QueryTest, QueryValue, TestSubject, TextField, ValueComparison,
+    WantedValue, WholeTokenProperty,
 };
 use super::query_values::{filled_word, parse_comma_list, parse_field_value, parse_value_path};
 use super::query_words::{self, SimpleField};
@@ -11,6 +11,9 @@ use super::{QueryError, TextPattern, query_attributes, query_cue, query_curves, 
 use crate::component::{ComponentField, HandRef, SignComponent, SignPhase};
 use crate::text::nearest_candidate;
 use std::str::FromStr;
+
+const VALUE_SOURCE_REMEDY: &str =
+    "in braces stand by=, proposed:yes, disputed:yes and confidence>, as in configuration=U{by=anna}";
 
 /// Reads a comparison whose field is next; an operator is known to follow it.
 pub(super) fn parse_field_test(cursor: &mut QueryCursor<'_>) -> Result<QueryTest, QueryError> {
@@ -28,7 +31,13 @@ pub(super) fn parse_field_test(cursor: &mut QueryCursor<'_>) -> Result<QueryTest
             Some(what) => what,
             None => {
                 let field = parse_component_field(cursor, subject_at)?;
-                TestSubject::Component(field, component_comparison(cursor)?)
+                let comparison = component_comparison(cursor)?;
+                match cursor.peek_char() {
+                    Some('{') => {
+                        TestSubject::Said(field, source_comparison(&comparison)?, parse_value_sources(cursor)?)
+                    }
+                    _ => TestSubject::Component(field, comparison),
+                }
             }
         },
     };
@@ -276,6 +285,57 @@ fn component_comparison(cursor: &mut QueryCursor<'_>) -> Result<ValueComparison,
         return Err(QueryError::new(value.at, message, remedy));
     }
     Ok(ValueComparison { operator, values })
+}
+
+/// Checks that a comparison is one of single values that there are, so that somebody can say them.
+fn source_comparison(comparison: &ValueComparison) -> Result<ValueComparison, QueryError> {
+    let unsaid = |value: &&QueryValue| {
+        matches!(
+            value.wanted,
+            WantedValue::Missing(MissingReason::Unset) | WantedValue::Steps(_)
+        )
+    };
+    match comparison.values.iter().find(unsaid) {
+        Some(value) => Err(QueryError::new(
+            value.at,
+            "nobody says this of one value",
+            VALUE_SOURCE_REMEDY,
+        )),
+        None => Ok(comparison.clone()),
+    }
+}
+
+/// Reads the conditions on who says a value: `{by=anna confidence>0.8}`.
+fn parse_value_sources(cursor: &mut QueryCursor<'_>) -> Result<Vec<QueryTest>, QueryError> {
+    let open = cursor.next(1);
+    let Some(mut inside) = cursor.read_braces() else {
+        return Err(QueryError::new(
+            open,
+            "this brace is not closed",
+            "write } after the last condition",
+        ));
+    };
+    let mut tests = Vec::new();
+    loop {
+        inside.skip_blanks();
+        let word_at = inside.clone().skip_bare_word(WordContext::Term);
+        let mut ahead = inside.clone();
+        ahead.pos = word_at.end;
+        ahead.skip_blanks();
+        if inside.peek_char().is_none() && !tests.is_empty() {
+            cursor.check_word_boundary()?;
+            return Ok(tests);
+        }
+        let refused = || QueryError::new(word_at, "this does not say who says so", VALUE_SOURCE_REMEDY);
+        if ahead.peek_operator().is_none() || word_at.start == word_at.end {
+            return Err(refused());
+        }
+        let test = parse_field_test(&mut inside)?;
+        if !test.asks_for_source() {
+            return Err(refused());
+        }
+        tests.push(test);
+    }
 }
 
 /// Reads the operator and the values of a key.

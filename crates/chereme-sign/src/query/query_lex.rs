@@ -84,6 +84,24 @@ impl<'a> QueryCursor<'a> {
         self.place_since(start)
     }
 
+    /// Steps over a text in braces and returns a cursor over its inside; `None` if they are not closed.
+    pub(super) fn read_braces(&mut self) -> Option<Self> {
+        let mut end = self.clone();
+        loop {
+            match end.peek_char()? {
+                '}' => break,
+                c if is_quote(c) => drop(end.read_quoted_word().ok()?),
+                _ => end.pos += 1,
+            }
+        }
+        let inside = Self {
+            chars: &self.chars[..end.pos],
+            pos: self.pos + 1,
+        };
+        self.pos = end.pos + 1;
+        Some(inside)
+    }
+
     /// Steps over characters up to a blank, a quote or a closing parenthesis.
     pub(super) fn skip_text_chunk(&mut self) -> QueryPlace {
         let start = self.pos;
@@ -206,7 +224,7 @@ impl<'a> QueryCursor<'a> {
     /// Fails if more of a word follows.
     pub(super) fn check_word_boundary(&self) -> Result<(), QueryError> {
         match self.peek_char() {
-            None | Some(')' | ',') => Ok(()),
+            None | Some(')' | ',' | '{') => Ok(()),
             Some(c) if c.is_whitespace() => Ok(()),
             Some('>') => Err(QueryError::new(
                 self.next(1),
@@ -234,7 +252,8 @@ pub(super) fn is_bare(text: &str, place: WordContext) -> bool {
     let opens = chars
         .first()
         .is_some_and(|c| place == WordContext::Term && *c == '(' || *c == '[' || starts_expression(*c));
-    !chars.is_empty() && !opens && bare_end(&chars, 0, place) == chars.len()
+    // Braces hold conditions on who says so.
+    !chars.is_empty() && !opens && !text.contains(['{', '}']) && bare_end(&chars, 0, place) == chars.len()
 }
 
 pub(super) fn is_quote(c: char) -> bool {
@@ -299,7 +318,7 @@ fn ends_word(chars: &[char], pos: usize, place: WordContext) -> bool {
     let operator = match place {
         WordContext::Term => operator_at(chars, pos).is_some(),
         WordContext::Value => c == '=',
-        WordContext::Step => c == '=' || c == '>',
+        WordContext::Step => matches!(c, '=' | '>' | '{'),
     };
     c.is_whitespace() || is_quote(c) || operator
 }

@@ -355,7 +355,11 @@ fn parse_related_test(
     }
     if matches!(
         other.what,
-        TestSubject::Property(..) | TestSubject::Time(..) | TestSubject::Attribute(..) | TestSubject::Curve(..)
+        TestSubject::Said(..)
+            | TestSubject::Property(..)
+            | TestSubject::Time(..)
+            | TestSubject::Attribute(..)
+            | TestSubject::Curve(..)
     ) {
         return Err(QueryError::new(
             other.subject_at,

@@ -53,6 +53,11 @@ impl Display for QueryTest {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match &self.what {
             TestSubject::Component(field, comparison) => write!(f, "{field}{comparison}"),
+            TestSubject::Said(field, comparison, sources) => {
+                write!(f, "{field}{comparison}{{")?;
+                separated(f, sources, " ", |f, test| test.fmt(f))?;
+                f.write_char('}')
+            }
             TestSubject::Property(property, comparison) => {
                 write!(f, "{}{comparison}", property.property_name())
             }

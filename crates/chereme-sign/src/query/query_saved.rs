@@ -57,6 +57,7 @@ impl QueryExpression {
         use super::query_tree::{QueryTest, TestSubject, WantedValue};
         fn move_value_places(what: &mut TestSubject, at: QueryPlace) {
             let (TestSubject::Component(_, comparison)
+            | TestSubject::Said(_, comparison, _)
             | TestSubject::Property(_, comparison)
             | TestSubject::Whole(_, comparison)
             | TestSubject::Tier(_, comparison)
@@ -73,17 +74,20 @@ impl QueryExpression {
                 }
             }
         }
-        let place = |test: &mut QueryTest| {
+        fn place(test: &mut QueryTest, at: QueryPlace) {
             (test.at, test.subject_at) = (at, at);
             move_value_places(&mut test.what, at);
-        };
+            if let TestSubject::Said(_, _, sources) = &mut test.what {
+                sources.iter_mut().for_each(|source| place(source, at));
+            }
+        }
         match self {
             Self::And(terms) | Self::Or(terms) => terms.iter_mut().for_each(|term| term.move_to(at)),
             Self::Not(inner) => inner.move_to(at),
-            Self::Test(test) => place(test),
+            Self::Test(test) => place(test, at),
             Self::Relation(related) => {
                 related.at = at;
-                place(&mut related.other);
+                place(&mut related.other, at);
             }
             Self::Like(like) => {
                 (like.at, like.example_at) = (at, at);

@@ -87,6 +87,19 @@ impl TokenQuery {
     }
 }
 
+impl QueryTest {
+    /// Returns whether the test asks who says something, or how surely.
+    #[must_use]
+    pub fn asks_for_source(&self) -> bool {
+        use WholeTokenProperty::{By, Disputed, Proposed};
+        match &self.what {
+            TestSubject::Property(By | Proposed | Disputed, _) => true,
+            TestSubject::Attribute(name, test) => name == CONFIDENCE_NAME && matches!(test, AttributeTest::Number(..)),
+            _ => false,
+        }
+    }
+}
+
 /// The name of the confidence of values in conditions such as `confidence>0.8`.
 pub const CONFIDENCE_NAME: &str = "confidence";
 
@@ -189,6 +202,10 @@ pub enum TestSubject {
     /// A component of the token: `right.configuration=U`. If no hand or phase is named, it holds if the reading of any
     /// hand or phase passes, for `!=` too.
     Component(ComponentField, ValueComparison),
+    /// A component with who says so: `configuration=U{by=anna confidence>0.8}`. It holds if one value passes the comparison,
+    /// and what is known of this very value passes the tests of [`By`](WholeTokenProperty::By),
+    /// [`Proposed`](WholeTokenProperty::Proposed), [`Disputed`](WholeTokenProperty::Disputed) and confidence.
+    Said(ComponentField, ValueComparison, Vec<QueryTest>),
     /// A property of the token as a whole: `origin=made`.
     Property(WholeTokenProperty, ValueComparison),
     /// A whole text: `gloss=CHAT`.

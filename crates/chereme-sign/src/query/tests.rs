@@ -349,3 +349,45 @@ fn every_query_in_the_help_parses() {
     }
     assert!(count > 20, "{count}");
 }
+
+#[test]
+fn braces_say_who_says_a_value() {
+    for (text, canonical) in [
+        ("configuration=U{by=anna}", "configuration=U{by=anna}"),
+        (
+            "right.handshape = U,V{ by:anna confidence > 0.8 } gloss=A",
+            "right.configuration=U,V{by=anna attribute.confidence>0.8} gloss=A",
+        ),
+        (
+            "not placement!=\"a {b}\"{proposed=oui by!=\"x } y\"}",
+            "not placement!=\"a {b}\"{proposed=yes by!=\"x } y\"}",
+        ),
+        (
+            "(configuration=[index -thumb]{disputed:yes} or x)",
+            "configuration=[index -thumb]{disputed=yes} or x",
+        ),
+        ("gloss=a{b}", "gloss=\"a{b}\""),
+    ] {
+        let query: TokenQuery = text.parse().unwrap_or_else(|error| panic!("{text}: {error:?}"));
+        assert_eq!(query.to_string(), canonical, "{text}");
+        assert_eq!(canonical.parse::<TokenQuery>(), Ok(query), "{canonical}");
+    }
+    for (text, message, at) in [
+        ("configuration=U{by=anna", "this brace is not closed", 15..16),
+        ("configuration=U{}", "this does not say who says so", 16..16),
+        ("configuration=U{anna}", "this does not say who says so", 16..20),
+        ("configuration=U{gloss=A}", "this does not say who says so", 16..21),
+        ("configuration=unset{by=anna}", "nobody says this of one value", 14..19),
+        (
+            "placement=head > chest{by=anna}",
+            "nobody says this of one value",
+            10..22,
+        ),
+        ("overlaps configuration=U{by=anna}", "this is no annotation", 9..22),
+        ("configuration=U{by=anna}x", "a blank is missing here", 24..25),
+    ] {
+        let error = text.parse::<TokenQuery>().expect_err(text);
+        assert!(error.message.contains(message), "{text}: {error:?}");
+        assert_eq!(error.at, at, "{text}");
+    }
+}

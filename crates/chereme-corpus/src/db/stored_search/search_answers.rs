@@ -320,6 +320,61 @@ pub(crate) fn load_recording_facts(connection: &Connection, fact: RecordingFact)
     Ok(said)
 }
 
+/// A value of a token, or an opinion about it, with who says so.
+pub(crate) struct SaidValue<'r> {
+    pub(crate) token: i64,
+    pub(crate) coded: CodedRow<'r>,
+    /// Why it does not count, unless it does.
+    pub(crate) standing: Option<OpinionStanding>,
+    /// The annotator, or `detector` of a proposal.
+    pub(crate) by: Option<&'r str>,
+    pub(crate) confidence: Option<f64>,
+    pub(crate) is_left_handed: bool,
+}
+
+/// Calls `take` with every value and opinion of a component, until it fails.
+pub(crate) fn visit_said_values(
+    connection: &Connection,
+    component: &str,
+    mut take: impl FnMut(&SaidValue<'_>) -> CorpusResult<()>,
+) -> CorpusResult<()> {
+    let mut statement = connection.prepare_cached(
+        "SELECT NULL, NULL, v.hand, v.component, v.feature, v.phase, v.position,
+             iif(v.state = 'unset' AND a.id IS NOT NULL, a.state, v.state),
+             iif(v.state = 'unset' AND a.id IS NOT NULL, trim(a.value), v.value),
+             v.token_id, v.state = 'unset' AND a.id IS NOT NULL, a.origin = 'detector', n.annotator, a.confidence,
+             coalesce(p.handedness, g.handedness) = 'left'
+         FROM token_value v JOIN token t ON t.id = v.token_id
+         LEFT JOIN annotation a ON a.id = v.annotation_id LEFT JOIN tier n ON n.id = a.tier_id
+         LEFT JOIN annotation b ON b.id = t.annotation_id LEFT JOIN tier i ON i.id = b.tier_id
+         LEFT JOIN signer p ON p.name = i.participant
+         LEFT JOIN recording r ON r.id = t.recording_id LEFT JOIN signer g ON g.id = r.signer_id
+         WHERE v.component = ?1",
+    )?;
+    let mut rows = statement.query([component])?;
+    while let Some(row) = rows.next()? {
+        let (is_opinion, is_detected): (bool, Option<bool>) = (row.get(10)?, row.get(11)?);
+        let standing = match is_detected {
+            _ if !is_opinion => None,
+            Some(true) => Some(OpinionStanding::Proposed),
+            _ => Some(OpinionStanding::Disputed),
+        };
+        let by = match standing {
+            Some(OpinionStanding::Proposed) => Some(DETECTOR_NAME),
+            _ => row.get_ref(12)?.as_str_or_null().map_err(rusqlite::Error::from)?,
+        };
+        take(&SaidValue {
+            token: row.get(9)?,
+            coded: CodedRow::coded_row_from_columns(row)?,
+            standing,
+            by,
+            confidence: row.get(13)?,
+            is_left_handed: row.get::<_, Option<bool>>(14)?.unwrap_or(false),
+        })?;
+    }
+    Ok(())
+}
+
 /// The readings of a recording that a relation looks at.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct RecordingReadings<'a> {

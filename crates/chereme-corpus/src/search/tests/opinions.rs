@@ -178,3 +178,56 @@ fn proposals_count_only_where_they_are_asked_for() {
     });
     assert_eq!(sample.search("placement=head proposed:yes").total, 1);
 }
+
+#[test]
+fn braces_ask_who_says_this_very_value() {
+    let proposal = Said {
+        field: "right.placement",
+        annotator: "",
+        origin: AnnotationOrigin::Detector,
+        values: &[(0, 1000, "chin")],
+    };
+    let all = [
+        by_person("anna", &[(0, 1000, "flat")]),
+        by_person("ben", &[(0, 1000, "5")]),
+        proposal,
+    ];
+    let mut sample = corpus_of_one_sign(&all);
+    for (query, total) in [
+        // Of the token as a whole: anna says something of it, and somebody says 5.
+        ("configuration=5 by=anna", 1),
+        ("configuration=5{by=anna}", 0),
+        ("configuration=5{by=ben}", 1),
+        ("right.configuration=5{by=b*}", 1),
+        ("left.configuration=5{by=ben}", 0),
+        ("initial.configuration=5{by=ben}", 1),
+        ("configuration!=5{by=anna}", 1),
+        ("configuration!=5{by=ben}", 0),
+        ("not configuration=5{by=anna}", 1),
+        ("configuration=*{by!=anna}", 1),
+        ("configuration=5{disputed:yes}", 1),
+        ("configuration=5{proposed:yes}", 0),
+        ("configuration=5{confidence>0.1}", 0),
+        ("placement=chin{proposed:yes confidence>0.8}", 1),
+        ("placement=chin{proposed:yes confidence>0.95}", 0),
+        ("placement=chin{by=detector}", 1),
+        ("placement=chin{proposed:no}", 0),
+        // Opinions about other components do not count because one is asked for.
+        ("placement=chin{by=detector} configuration=*", 0),
+        ("placement=chin{by=detector} configuration=5{by=ben}", 1),
+    ] {
+        assert_eq!(sample.search(query).total, total, "{query}");
+    }
+    let answer = sample.search("configuration=5{by=ben}");
+    assert_eq!(answer.query, "configuration=5{by=ben}");
+    let shown: Vec<&str> = answer.hits[0].opinions.iter().map(|one| one.value.as_str()).collect();
+    assert_eq!(shown, ["flat", "5", "chin"]);
+    let error = sample
+        .corpus
+        .search_tokens("configuration=5{by=bem}", &SearchOptions::default());
+    let message = error.expect_err("nobody has that name").to_string();
+    assert!(message.contains("no annotator is called \"bem\""), "{message}");
+    // A preferred annotator's value counts, and is still said by them.
+    sample.corpus.prefer_annotator(Some("ben")).expect("preferred");
+    assert_eq!(sample.search("configuration=5{by=ben disputed:no}").total, 1);
+}
