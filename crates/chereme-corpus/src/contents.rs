@@ -7,6 +7,7 @@ use rusqlite::Connection;
 use crate::Corpus;
 use crate::curves::face_stage;
 use crate::db::lexicons::{self, LexiconRow};
+use crate::db::people::{self, PersonContents};
 use crate::db::signs::{self, TokenRow};
 use crate::db::stored_attributes;
 use crate::db::stored_contents as rows;
@@ -39,6 +40,8 @@ pub struct CorpusOverview {
     pub lexicons: Vec<LexiconRow>,
     /// The signers, by name.
     pub signers: Vec<SignerRow>,
+    /// All people, by name: signers, participants and annotators.
+    pub people: Vec<PersonContents>,
     /// The inventories, oldest first.
     pub inventories: Vec<StoredInventory>,
     /// The names of the attributes of signs, in order.
@@ -121,6 +124,7 @@ impl Corpus {
             signs: rows::load_sign_glances(&reading)?,
             lexicons: lexicons::load_lexicon_rows(&reading)?,
             signers: stored_recordings::load_signer_rows(&reading)?,
+            people: people::load_people(&reading)?,
             inventories: inventories
                 .into_iter()
                 .map(inventories::stored_inventory_from_row)

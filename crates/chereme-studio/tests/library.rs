@@ -4,7 +4,10 @@ mod common;
 
 use std::path::Path;
 
-use chereme_corpus::{Corpus, ImportOptions, ProgressReceiver, ignore_progress_step, unpack_starter};
+use chereme_corpus::{
+    Corpus, ImportOptions, PersonContents, ProgressReceiver, TierPropertyChange, TierRequestName, ignore_progress_step,
+    unpack_starter,
+};
 use chereme_studio::{InterfaceLanguage, StudioOptions};
 use common::*;
 use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2};
@@ -400,4 +403,58 @@ fn a_body_is_fitted_to_the_markers_of_the_person_who_is_chosen() {
         let summary = &corpus.operation_log(1).expect("read")[0].summary;
         assert!(summary.contains("of Bob, "), "{summary}");
     }
+}
+
+#[test]
+fn people_who_only_annotate_are_listed_changed_and_united() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = small_corpus(folder.path());
+    let mut corpus = Corpus::open_corpus(&path, "A").expect("opened");
+    for (tier, name) in [(1, "Anno"), (2, "A. Nno")] {
+        let annotator = Some(Some(name.to_owned()));
+        let change = TierPropertyChange {
+            annotator,
+            ..TierPropertyChange::default()
+        };
+        let changed = corpus.change_tier_properties(&TierRequestName::Number(tier), &change);
+        changed.expect("changed");
+    }
+    drop(corpus);
+    let mut window = window(StudioOptions {
+        corpus: Some(path.clone()),
+        ..options(folder.path())
+    });
+    until(&mut window, "the corpus", |window| has(window, "escargot"));
+    let people = || -> Vec<PersonContents> {
+        let corpus = Corpus::open_corpus(&path, "B").expect("opened");
+        corpus.list_people().expect("people")
+    };
+    let count = people().len();
+    click(&mut window, &format!("People ({count})"));
+    window.run_steps(3);
+    window.get_by_label("Filter").focus();
+    window.run_steps(2);
+    window.get_by_label("Filter").type_text("annotator · tiers: 1");
+    window.run_steps(3);
+    assert!(has(&window, "A. Nno") && has(&window, "Anno"));
+    click(&mut window, "A. Nno");
+    until(&mut window, "the person", |window| has(window, "Same person as"));
+    window.get_by_label("Attributes").focus();
+    window.run_steps(2);
+    window.get_by_label("Attributes").type_text("region=north");
+    window.key_press(Key::Enter);
+    window.run_steps(2);
+    idle(&mut window);
+    let of = |name: &str| people().into_iter().find(|person| person.name == name);
+    assert_eq!(of("A. Nno").expect("there").attributes[0].text, "north");
+    until(&mut window, "the person", |window| has(window, "Same person as"));
+    window.get_by_label("Same person as").focus();
+    window.run_steps(2);
+    window.get_by_label("Same person as").type_text("Anno");
+    window.key_press(Key::Enter);
+    window.run_steps(2);
+    idle(&mut window);
+    assert_eq!(people().len(), count - 1);
+    let anno = of("Anno").expect("one person");
+    assert_eq!((anno.annotator_tiers, anno.aliases), (2, vec!["A. Nno".to_owned()]));
 }

@@ -1,4 +1,4 @@
-//! Texts of the lists of recordings and signs.
+//! Texts of the lists of recordings, signs and people.
 
 texts! {
     TITLE: "Library", "Fonds";
@@ -10,6 +10,11 @@ texts! {
     NO_RECORDINGS: "There are no recordings yet, only signs.", "Il n’y a pas encore d’enregistrements, seulement des signes.";
     RECORDINGS: "Recordings ({n})", "Enregistrements ({n})";
     SIGNS: "Signs ({n})", "Signes ({n})";
+    PEOPLE: "People ({n})", "Personnes ({n})";
+    NO_PERSON_FITS: "Nobody has this name.", "Personne ne porte ce nom.";
+    SIGNS_IN: "signer · recordings: {n}", "signeur · enregistrements : {n}";
+    TAKES_PART: "participant · tiers: {n}", "participant · acteurs : {n}";
+    ANNOTATES: "annotator · tiers: {n}", "annotateur · acteurs : {n}";
     WALL: "Wall", "Mur";
     LIST: "List", "Liste";
     RECORDED: "recorded", "enregistré";

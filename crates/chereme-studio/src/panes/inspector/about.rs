@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use chereme_corpus::{
     ConsentAudience, MediaChange, PersonAttribute, PersonChange, PersonContents, RecordingChange, RecordingDetails,
-    RecordingGlance, RowName, SignChange, SignDetails, SignerChange, SignerDetails, SignerRow, TrackKind,
+    RecordingGlance, RowName, SignChange, SignDetails, SignerChange, SignerDetails, TrackKind,
 };
 use chereme_motion::{BodySide, RecordingInstant};
 use eframe::egui::{CollapsingHeader, Id, Label, RichText, Sense, Ui, vec2};
@@ -225,7 +225,7 @@ fn show_recording_media(ui: &mut Ui, seen: &PaneInput<'_>, it: &RecordingDetails
     }
 }
 
-pub(super) fn show_signer_details(ui: &mut Ui, seen: &PaneInput<'_>, row: &SignerRow, out: &mut CommandOutbox) {
+pub(super) fn show_signer_details(ui: &mut Ui, seen: &PaneInput<'_>, row: &PersonContents, out: &mut CommandOutbox) {
     let change = |out: &mut CommandOutbox, change: SignerChange| {
         out.request_work(recordings_jobs::change_signer(RowName::Number(row.id), change));
     };
@@ -326,7 +326,7 @@ fn show_person_details(ui: &mut Ui, seen: &PaneInput<'_>, person: &PersonContent
                 );
             }
         }
-        let others = seen.snapshot.overview.signers.iter().filter(|row| row.id != person.id);
+        let others = seen.snapshot.overview.people.iter().filter(|row| row.id != person.id);
         let names: Vec<&str> = others.map(|row| row.name.as_str()).collect();
         let candidates = |typed: &str| fitting_candidates(names.iter().copied(), typed);
         if let Some(name) = show_line_with_completion(ui, seen, key("same"), words::SAME_PERSON_AS, "", &candidates)

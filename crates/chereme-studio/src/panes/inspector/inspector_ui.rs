@@ -117,7 +117,7 @@ pub(super) fn show_thing_details(
         show_recording_details(ui, seen, glance, out);
     }
     if let InspectedThing::Signer(id) = thing
-        && let Some(row) = seen.snapshot.overview.signers.iter().find(|row| row.id == *id)
+        && let Some(row) = seen.snapshot.overview.people.iter().find(|row| row.id == *id)
     {
         show_signer_details(ui, seen, row, out);
     }

@@ -2,12 +2,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use chereme_corpus::{RecordOrigin, RecordingGlance, SignGlance, TrackKind};
+use chereme_corpus::{PersonContents, RecordOrigin, RecordingGlance, SignGlance, TrackKind};
 use chereme_motion::{RecordingInstant, TimeSpan};
 use chereme_sign::text::fold_text;
 
 use super::super::timeline::timeline_data::time_text;
-use crate::words::{InterfaceLanguage, InterfaceText, library as words};
+use crate::words::{InterfaceLanguage, InterfaceText, fill_text_braces, library as words};
 
 /// A recording as a row of the list.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -60,6 +60,50 @@ pub(crate) fn library_recording_rows(
         }
     };
     recordings.iter().filter(fits).map(row).collect()
+}
+
+/// A person as a row of the list.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct LibraryPersonRow {
+    pub(crate) id: i64,
+    pub(crate) name: String,
+    /// The roles with their numbers, then the attributes.
+    pub(crate) about: String,
+}
+
+/// Returns the people with a name or an attribute that contains `filter`, ignoring case and accents.
+pub(crate) fn library_person_rows(
+    people: &[PersonContents],
+    filter: &str,
+    language: InterfaceLanguage,
+) -> Vec<LibraryPersonRow> {
+    let wanted = fold_text(filter.trim());
+    let row = |person: &PersonContents| {
+        let roles = [
+            (words::SIGNS_IN, person.recordings),
+            (words::TAKES_PART, person.participant_tiers),
+            (words::ANNOTATES, person.annotator_tiers),
+        ];
+        let roles = roles.into_iter().filter(|(_, n)| *n > 0);
+        let roles = roles.map(|(text, n)| fill_text_braces(text.text_in_language(language), &[("n", &n)]));
+        let attributes = person.attributes.iter();
+        let said = attributes.map(|attribute| format!("{}={}", attribute.name, attribute.text));
+        LibraryPersonRow {
+            id: person.id,
+            name: person.name.clone(),
+            about: roles.chain(said).collect::<Vec<_>>().join(" · "),
+        }
+    };
+    let fits = |(person, row): &(&PersonContents, LibraryPersonRow)| {
+        let mut texts = person.aliases.iter().chain([&row.name, &row.about]);
+        texts.any(|text| fold_text(text).contains(&wanted))
+    };
+    people
+        .iter()
+        .map(|person| (person, row(person)))
+        .filter(fits)
+        .map(|(_, row)| row)
+        .collect()
 }
 
 /// Returns whether a recording has a track of markers.

@@ -54,6 +54,7 @@ impl LibraryPane {
                 let row = self.focused.and_then(|at| rows.get(at)).or_else(chosen)?;
                 Some(sign_deletion_target(&row.gloss))
             }
+            LibraryList::People => None,
         }
     }
 

@@ -40,7 +40,7 @@ impl LibraryPane {
         let rows = &self.rows.recordings;
         let focused = match self.listed_library(seen) {
             LibraryList::Recordings => self.focused.and_then(|at| rows.get(at)).map(|row| row.id),
-            LibraryList::Signs => None,
+            LibraryList::Signs | LibraryList::People => None,
         };
         let all = &seen.snapshot.overview.recordings;
         let wanted = focused.or(seen.shown.recording);

@@ -59,6 +59,8 @@ impl LibraryPane {
         let total = match list {
             LibraryList::Recordings => self.rows.recordings.len(),
             LibraryList::Signs => self.rows.signs.len(),
+            // People have no pictures.
+            LibraryList::People => return,
         };
         let (columns, size) = wall_cell_layout(ui.available_width() - 12.0);
         self.wall_keys(ui, columns, total);
@@ -110,6 +112,7 @@ impl LibraryPane {
                 show_looped_motion(ui, seen, out, motion, picture);
                 self.on_recording(seen, out, &row, &response);
             }
+            LibraryList::People => {}
             LibraryList::Signs => {
                 let Some(row) = self.rows.signs.get(at).cloned() else {
                     return;

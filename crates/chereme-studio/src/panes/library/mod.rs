@@ -1,4 +1,4 @@
-//! The library pane: lists of the recordings and the signs of the corpus.
+//! The library pane: lists of the recordings, the signs and the people of the corpus.
 
 pub(crate) mod library_data;
 mod library_delete;
@@ -26,7 +26,7 @@ use crate::panes::list_keys;
 use crate::script::script_edit;
 use crate::words::{InterfaceLanguage, fill_text_braces, library as words};
 use crate::work::{WorkId, WorkResult};
-use library_data::{LibraryRow, LibrarySignRow, SignMovement};
+use library_data::{LibraryPersonRow, LibraryRow, LibrarySignRow, SignMovement};
 use library_delete::DeletionState;
 use library_fit::BodyFitState;
 
@@ -40,6 +40,7 @@ const LARGE_PICTURE_SIDE: f32 = 220.0;
 enum LibraryList {
     Recordings,
     Signs,
+    People,
 }
 
 /// The pane.
@@ -69,6 +70,7 @@ struct LibraryRows {
     of: Option<(usize, String, InterfaceLanguage)>,
     recordings: Vec<LibraryRow>,
     signs: Vec<LibrarySignRow>,
+    people: Vec<LibraryPersonRow>,
     /// The first sign of each recording.
     first: BTreeMap<i64, TimeSpan>,
 }
@@ -84,6 +86,7 @@ impl LibraryRows {
         let kind = |kind| seen.say_text(library_data::kind_text(kind)).to_owned();
         self.recordings = library_data::library_recording_rows(&overview.recordings, filter, origin, kind);
         self.signs = library_data::library_sign_rows(&overview.signs, &overview.recordings, filter, seen.language);
+        self.people = library_data::library_person_rows(&overview.people, filter, seen.language);
         self.first = library_wall::first_signs(&overview.signs);
         self.of = Some(now);
     }
@@ -126,6 +129,7 @@ impl LibraryPane {
             let all = [
                 (LibraryList::Recordings, words::RECORDINGS, overview.recordings.len()),
                 (LibraryList::Signs, words::SIGNS, overview.signs.len()),
+                (LibraryList::People, words::PEOPLE, overview.people.len()),
             ];
             for (of, name, count) in all {
                 let name = fill_text_braces(seen.say_text(name), &[("n", &count)]);
@@ -243,6 +247,26 @@ impl LibraryPane {
         });
         self.scrolled = shown.state.clamped_offset().y;
         self.rows.recordings = rows;
+    }
+
+    /// Lists the people; a click shows all that is known of one, where it can be changed.
+    fn show_person_rows(&mut self, ui: &mut Ui, out: &mut CommandOutbox) {
+        let rows = std::mem::take(&mut self.rows.people);
+        let height = ui.spacing().interact_size.y * LIBRARY_ROW_HEIGHT;
+        self.take_library_keys(ui, rows.len());
+        let area = self.library_scroll_area(ui, height + ui.spacing().item_spacing.y);
+        let shown = area.show_rows(ui, height, rows.len(), |ui, range| {
+            for at in range {
+                let row = &rows[at];
+                let response = super::list_row_at(ui, row_id(at), height, 0.0, false, &row.name, &row.about);
+                self.focus_library_row(ui, &response, at);
+                if response.clicked() {
+                    out.send_command(WindowCommand::Inspect(InspectedThing::Signer(row.id)));
+                }
+            }
+        });
+        self.scrolled = shown.state.clamped_offset().y;
+        self.rows.people = rows;
     }
 
     /// Handles clicks on a recording.
@@ -436,6 +460,10 @@ impl PaneInterface for LibraryPane {
             LibraryList::Signs if self.rows.signs.is_empty() => {
                 ui.label(seen.say_text(words::NO_SIGN_FITS));
             }
+            LibraryList::People if self.rows.people.is_empty() => {
+                ui.label(seen.say_text(words::NO_PERSON_FITS));
+            }
+            LibraryList::People => self.show_person_rows(ui, out),
             _ if !seen.settings.library_list => self.show_library_wall(ui, seen, out, list),
             LibraryList::Recordings => self.show_recording_rows(ui, seen, out),
             LibraryList::Signs => self.show_sign_rows(ui, seen, out),
