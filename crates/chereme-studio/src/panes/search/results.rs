@@ -1,6 +1,6 @@
 //! Hits as looping little figures, and as a table with their neighbours.
 
-use chereme_corpus::{OpinionStanding, SearchHit, TrackKind};
+use chereme_corpus::{HitOpinion, OpinionStanding, SearchHit, TrackKind};
 use chereme_motion::BodySide;
 use eframe::egui::text::{LayoutJob, TextWrapping};
 use eframe::egui::{
@@ -13,6 +13,7 @@ use super::{ResultsView, SearchPane};
 use crate::command::{CommandOutbox, DraggedToken, WindowCommand};
 use crate::context::PaneInput;
 use crate::miniatures::{self, MiniatureCell, MiniatureFocus, MiniatureMotion};
+use crate::panes::timeline::timeline_paint::hatch_proposal;
 use crate::panes::{carry, list_keys, scrolled_to};
 use crate::pickers;
 use crate::words::{InterfaceText, fill_text_braces, search_words as words};
@@ -25,6 +26,9 @@ const FIGURE_FOOT_HEIGHT_POINTS: f32 = 36.0;
 const MIN_FIGURE_WIDTH_POINTS: f32 = 132.0;
 /// The space between two figures, in points.
 const FIGURE_GAP_POINTS: f32 = 6.0;
+
+/// Height of the line of proposed and disputed values, in points.
+const OPINION_HEIGHT_POINTS: f32 = 18.0;
 
 /// The columns of the table: the title of each, and the order that it sorts by.
 const RESULT_TABLE_COLUMNS: [(InterfaceText, HitSort); 5] = [
@@ -143,6 +147,12 @@ fn draw_result_figure(
         }
         None => paint_coded_figure(ui, seen, &hit, picture),
     }
+    paint_hit_opinions(
+        ui,
+        seen,
+        &hit,
+        picture.with_min_y(picture.bottom() - OPINION_HEIGHT_POINTS),
+    );
     let small = TextStyle::Small.resolve(ui.style());
     let body = TextStyle::Body.resolve(ui.style());
     let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
@@ -223,14 +233,7 @@ fn paint_coded_figure(ui: &Ui, seen: &PaneInput<'_>, hit: &SearchHit, rect: Rect
     }
     let weak = ui.visuals().weak_text_color();
     let font = TextStyle::Small.resolve(ui.style());
-    let mut values: Vec<String> = hit_coding_values(hit).into_iter().map(|(_, value)| value).collect();
-    values.extend(hit.opinions.iter().map(|opinion| {
-        let mark = match opinion.standing {
-            OpinionStanding::Proposed => words::PROPOSED,
-            OpinionStanding::Disputed => words::DISPUTED,
-        };
-        format!("{} ({})", opinion.value, seen.say_text(mark))
-    }));
+    let values: Vec<String> = hit_coding_values(hit).into_iter().map(|(_, value)| value).collect();
     let text = if values.is_empty() {
         seen.say_text(words::UNCODED).to_owned()
     } else {
@@ -239,6 +242,35 @@ fn paint_coded_figure(ui: &Ui, seen: &PaneInput<'_>, hit: &SearchHit, rect: Rect
     let galley = ui.painter().layout(text, font, weak, rect.width() - 12.0);
     let text_rect = Align2::CENTER_CENTER.anchor_size(rect.center(), galley.size());
     ui.painter().galley(text_rect.min, galley, weak);
+}
+
+/// Returns what is said of a hit and does not count, each with the reason.
+fn hit_opinions_text(hit: &SearchHit, seen: &PaneInput<'_>) -> Option<String> {
+    let marked = hit.opinions.iter().map(|opinion| {
+        let mark = match opinion.standing {
+            OpinionStanding::Proposed => words::PROPOSED,
+            OpinionStanding::Disputed => words::DISPUTED,
+        };
+        format!("{} ({})", opinion.value, seen.say_text(mark))
+    });
+    let texts: Vec<String> = marked.collect();
+    (!texts.is_empty()).then(|| texts.join(" · "))
+}
+
+/// Paints what is said of a hit and does not count, on a ground that is hatched, as in the timeline, if a detector
+/// proposes some of it.
+fn paint_hit_opinions(ui: &Ui, seen: &PaneInput<'_>, hit: &SearchHit, rect: Rect) {
+    let Some(text) = hit_opinions_text(hit, seen) else {
+        return;
+    };
+    let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
+    painter.rect_filled(rect, 3.0, ui.visuals().extreme_bg_color);
+    let is_proposal = |opinion: &HitOpinion| opinion.standing == OpinionStanding::Proposed;
+    if hit.opinions.iter().any(is_proposal) {
+        hatch_proposal(&painter, rect, seen.pane_colours().component.gamma_multiply(0.55));
+    }
+    let font = TextStyle::Small.resolve(ui.style());
+    paint_column_text(ui, rect, &text, font, ui.visuals().text_color(), false);
 }
 
 /// Paints pictures of the coding along the right edge: all of them `small`, or the first one large at the left. Returns
@@ -431,6 +463,11 @@ fn draw_result_line(
             let drawn = painter.text(share_position, Align2::RIGHT_CENTER, share, font, weak);
             place.max.x = drawn.left();
         }
+        if sort == HitSort::Gloss && !hit.opinions.is_empty() {
+            let (half, full) = (place.center().x, place);
+            place.max.x = half;
+            paint_hit_opinions(ui, seen, &hit, full.with_min_x(half).shrink2(vec2(2.0, 4.0)));
+        }
         let font = TextStyle::Body.resolve(ui.style());
         paint_column_text(ui, place, &content, font, colour, sort == HitSort::Before);
     }
@@ -508,10 +545,14 @@ fn make_hit_clickable(
     let id = Id::unique("hits").with(at);
     let response = ui.interact(rect, id, Sense::click_and_drag());
     let place = hits::place_text(hit, lexicon_hit_text(seen, hit));
-    let name = match hits::order_value_text(hit, &search.sort, seen.language) {
-        Some(value) => format!("{}, {place}, {value}", hit.gloss),
-        None => format!("{}, {place}", hit.gloss),
-    };
+    let order_value = hits::order_value_text(hit, &search.sort, seen.language);
+    let parts = [
+        Some(hit.gloss.clone()),
+        Some(place),
+        hit_opinions_text(hit, seen),
+        order_value,
+    ];
+    let name = parts.into_iter().flatten().collect::<Vec<_>>().join(", ");
     let chosen = search.at == at;
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, &name));
     if search.reach == Some(at) {

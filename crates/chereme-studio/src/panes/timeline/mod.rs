@@ -42,7 +42,7 @@ mod timeline_edit;
 pub(crate) mod timeline_lanes;
 mod timeline_names;
 mod timeline_overview;
-mod timeline_paint;
+pub(crate) mod timeline_paint;
 mod timeline_parts;
 mod timeline_paste;
 mod timeline_rows;

@@ -109,7 +109,7 @@ pub(super) fn paint_annotation_bar(
     }
     painter.rect(rect, 3.0, fill, Stroke::new(width, edge), StrokeKind::Inside);
     if proposed && !faint {
-        hatch(painter, rect, edge.gamma_multiply(0.55));
+        hatch_proposal(painter, rect, edge.gamma_multiply(0.55));
     }
     if chosen && !faint && rect.width() > 16.0 {
         grips(painter, rect, edge);
@@ -137,7 +137,7 @@ fn paint_bar_text(painter: &Painter, rect: Rect, text: String, font: &FontId, in
 }
 
 /// Paints slanting lines over proposals that nobody has accepted yet.
-fn hatch(painter: &Painter, rect: Rect, colour: Color32) {
+pub(crate) fn hatch_proposal(painter: &Painter, rect: Rect, colour: Color32) {
     const HATCH_STEP_POINTS: f32 = 7.0;
     let seen = rect.shrink(1.0).intersect(painter.clip_rect());
     if !seen.is_positive() {
