@@ -495,3 +495,26 @@ fn stored_measures_order_and_count_the_hits() {
         query(&window)
     );
 }
+
+#[test]
+fn a_cross_table_counts_pairs_of_values_and_narrows_the_query() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = searching(folder.path());
+    until(&mut window, "the hits", |it| contains(it, "Found: "));
+    click(&mut window, "Cross table…");
+    idle(&mut window);
+    until(&mut window, "the table", |it| has(it, "Copy the table"));
+    let path = window.state().shown_corpus_path().expect("open").clone();
+    let mut corpus = chereme_corpus::Corpus::open_corpus(&path, "reader").expect("opened");
+    let fields = ["configuration", "placement"].map(str::to_owned);
+    let mut hear = chereme_corpus::ignore_progress_step;
+    let mut progress = chereme_corpus::ProgressReceiver::new(&mut hear);
+    let tally = corpus.tally_values("", &fields, &mut progress).expect("a table");
+    let row = &tally.rows[0];
+    click(&mut window, &format!("{} ({})", row.value, row.total));
+    idle(&mut window);
+    window.run_steps(3);
+    let narrowed = query(&window);
+    assert!(narrowed.starts_with("configuration="), "{narrowed}");
+    assert_eq!(hits(&window), row.total);
+}

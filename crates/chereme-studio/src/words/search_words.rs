@@ -151,6 +151,12 @@ texts! {
     ORDER_RANK: "best first", "pertinence";
     GREATEST_FIRST: "Greatest first", "Du plus grand au plus petit";
     COUNT: "Also count…", "Compter aussi…";
+    CROSS: "Cross table…", "Tableau croisé…";
+    CROSS_TITLE: "How many tokens have both values", "Combien d’occurrences ont les deux valeurs";
+    CROSS_ROWS: "Rows", "Lignes";
+    CROSS_COLUMNS: "Columns", "Colonnes";
+    CROSS_COPY: "Copy the table", "Copier le tableau";
+    CROSS_LEFT_OUT: "{n} more columns are not shown; the copy has them all.", "{n} autres colonnes ne sont pas montrées ; la copie les a toutes.";
     SORT: "Sort by {column}", "Trier par {column}";
     SORT_FEWER: "Too many hits to sort by their neighbours: narrow the query", "Trop de résultats pour trier par contexte : précisez la requête";
     HIT_TIP: "{hit}\nArrow keys walk, Enter opens", "{hit}\nFlèches pour aller, Entrée pour ouvrir";

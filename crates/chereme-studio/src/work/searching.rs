@@ -15,10 +15,10 @@ pub(crate) fn search_tokens_job(query: String, options: SearchOptions) -> Corpus
     })
 }
 
-/// Counts the values of a field among the tokens that a query finds.
-pub(crate) fn tally_values_job(query: String, field: String) -> CorpusJob {
+/// Counts the values of one field, or of two, among the tokens that a query finds.
+pub(crate) fn tally_values_job(query: String, fields: Vec<String>) -> CorpusJob {
     CorpusJob::new(JobAbout::ASK_JOB_ABOUT, move |corpus, progress| {
-        let tally = corpus.tally_values(&query, &[field], progress);
+        let tally = corpus.tally_values(&query, &fields, progress);
         tally.map(WorkOutcome::Tallied)
     })
 }

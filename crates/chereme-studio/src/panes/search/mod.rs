@@ -18,6 +18,7 @@ mod hits;
 mod panes_search_facets;
 mod results;
 pub(crate) mod search_builder;
+mod search_cross;
 mod search_field;
 mod search_order;
 mod search_page;
@@ -81,6 +82,7 @@ pub(crate) struct SearchPane {
     /// Whether an order by an attribute begins with the greatest number.
     descending: bool,
     counted_attribute: search_order::CountedAttribute,
+    cross_table: search_cross::CrossTable,
     /// Whether figures loop without the pointer over them; and whether they show the hand from near.
     playing: bool,
     close: bool,
@@ -147,6 +149,7 @@ impl Default for SearchPane {
             sort: HitSort::default(),
             descending: true,
             counted_attribute: search_order::CountedAttribute::default(),
+            cross_table: search_cross::CrossTable::default(),
             close: false,
             changed: None,
             asked: None,
@@ -453,6 +456,7 @@ impl PaneInterface for SearchPane {
         if let Some(found) = &mut self.found {
             self.counted_attribute.receive_attribute_counts(id, ended, found);
         }
+        self.cross_table.receive_cross_counts(id, ended);
         if let Some(page) = self.pages.remove(&id)
             && let (Ok(WorkOutcome::Found(answer)), Some(found)) = (ended, &mut self.found)
         {
@@ -481,6 +485,7 @@ impl SearchPane {
                 let same = self.found.as_ref().is_some_and(|earlier| earlier.query == answer.query);
                 self.found = Some(QueryAnswer::new(answer));
                 self.counted_attribute.forget_attribute_counts();
+                self.cross_table.forget_cross_counts();
                 self.aside.forget_nothing();
                 if !same {
                     (self.at, self.opened, self.scrolled) = (0, None, 0.0);

@@ -105,7 +105,7 @@ impl CountedAttribute {
     pub(super) fn request_attribute_counts(&mut self, query: &str, out: &mut CommandOutbox) {
         if let Some(name) = self.name.as_ref().filter(|_| !self.is_requested) {
             let field = attribute_field_text(name);
-            self.asked = Some(out.request_work(searching::tally_values_job(query.to_owned(), field)));
+            self.asked = Some(out.request_work(searching::tally_values_job(query.to_owned(), vec![field])));
             self.is_requested = true;
         }
     }
@@ -124,8 +124,9 @@ impl CountedAttribute {
 }
 
 impl SearchPane {
-    /// Shows the menu of the attributes to count above the facets, if signs have any.
+    /// Shows the button of the cross table above the facets, and the menu of the attributes to count if signs have any.
     pub(super) fn show_count_menu(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
+        self.cross_table.show_cross_button(ui, seen);
         if seen.snapshot.overview.attributes.is_empty() {
             return;
         }

@@ -240,7 +240,7 @@ impl SearchPane {
         self.counted_attribute.request_attribute_counts(&self.query, out);
         let facets = found.facets.clone();
         let query = self.field.text.clone();
-        let mut wanted = None;
+        let mut wanted = self.cross_table.show_cross_table(ui, seen, &self.query, out);
         if wide {
             let room = ui.available_size();
             ui.horizontal_top(|ui| {
@@ -252,7 +252,9 @@ impl SearchPane {
                 ui.vertical(|ui| {
                     self.show_count_menu(ui, seen);
                     let (conditions, high) = (&mut self.conditions, ui.available_height());
-                    wanted = panes_search_facets::show_search_facets(ui, seen, &facets, &query, conditions, high, out);
+                    let facet =
+                        panes_search_facets::show_search_facets(ui, seen, &facets, &query, conditions, high, out);
+                    wanted = wanted.take().or(facet);
                 });
             });
         } else {
@@ -260,7 +262,8 @@ impl SearchPane {
             ui.allocate_ui(vec2(ui.available_width(), high), |ui| {
                 self.show_count_menu(ui, seen);
                 let conditions = &mut self.conditions;
-                wanted = panes_search_facets::show_search_facets(ui, seen, &facets, &query, conditions, high, out);
+                let facet = panes_search_facets::show_search_facets(ui, seen, &facets, &query, conditions, high, out);
+                wanted = wanted.take().or(facet);
             });
             results::show_search_results(self, ui, seen, out);
         }
