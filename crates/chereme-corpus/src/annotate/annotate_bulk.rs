@@ -192,10 +192,13 @@ pub(crate) fn find_table_annotation(
     };
     let options = AnnotateOptions::default();
     let mut run = AnnotationChangeRun::new(connection, &options)?;
-    let Ok(reading) = run.reading_on_tier(&row, value) else {
+    // What is wrong with the row is said when it is carried out, with its line.
+    let (Ok(reading), Ok(span)) = (
+        run.reading_on_tier(&row, value),
+        run.span_from_moments(row.id, *start, *end),
+    ) else {
         return Ok(None);
     };
-    let span = run.span_from_moments(row.id, *start, *end)?;
     let name = AnnotationName::At {
         tier: tier.clone(),
         start: *start,

@@ -1,9 +1,8 @@
 //! Imports tables of annotations of recordings that the corpus has, which `annotate from` reads, too.
 //!
-//! An edited table is imported as the difference to its earlier version. What was edited in the corpus since is treated as
-//! with annotation files.
+//! The bytes of a table are not kept: its annotations belong to several recordings, each with a consent of its own.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use chereme_formats::table::annotations;
@@ -15,7 +14,6 @@ use crate::annotate::{
     AnnotateOptions, AnnotationAction, AnnotationChange, AnnotationName, ChangeTableFile, TableAnnotation,
     TableChanges, find_table_annotation, read_table_changes, write_table_changes,
 };
-use crate::db::stored_recordings;
 use crate::error::CorpusResult;
 use crate::progress::ProgressReceiver;
 use crate::report_finding::ReportFinding;
@@ -33,41 +31,47 @@ pub(super) fn import_change_table(
     job: &mut ImportJob<'_>,
     progress: &mut ProgressReceiver<'_>,
 ) -> CorpusResult<FileReport> {
-    if let Some(report) = job.report_unchanged_file() {
-        return Ok(report);
-    }
+    let unchanged_report = job.report_unchanged_file();
     let connection = job.connection;
     let options = AnnotateOptions {
         add_tiers: true,
         ..AnnotateOptions::default()
     };
-    let read_changes = |bytes: &[u8]| {
-        let table = ChangeTableFile {
-            bytes,
-            name: &job.file_name,
-            recording: job.options.into.as_ref(),
-        };
-        read_table_changes(connection, table, &options)
-    };
     let bytes = job.read_job_bytes()?;
-    let read = read_changes(&bytes)?;
-    let mut report = FileReport::new(job.path, FileStatus::Imported);
-    let mut earlier = Vec::new();
-    if let Some(row) = job.places.find_file_at(&job.place, job.kind) {
-        report.status = FileStatus::Updated;
-        if let Some(bytes) = stored_recordings::source_bytes(connection, row.id)? {
-            earlier = read_changes(&bytes)?.changes;
+    let table = ChangeTableFile {
+        bytes: &bytes,
+        name: &job.file_name,
+        recording: job.options.into.as_ref(),
+    };
+    let read = read_table_changes(connection, table, &options)?;
+    let own_edits = job.options.own_edits;
+    let is_edited = job.places.find_file_at(&job.place, job.kind).is_some();
+    let update = plan_table_update(connection, read.changes, is_edited, own_edits == OwnEdits::Merge)?;
+    if let Some(mut report) = unchanged_report {
+        let is_lacking = |change: &&AnnotationChange| matches!(change.action, AnnotationAction::Add { .. });
+        let lacking = update.changes.iter().filter(is_lacking).count() + update.edits.len();
+        if lacking > 0 {
+            report.findings.push(ReportFinding::finding_note(format!(
+                "rows that the corpus does not have as they are: {lacking}"
+            )));
         }
+        return Ok(report);
     }
-    let merges = job.options.own_edits == OwnEdits::Merge;
-    let update = plan_table_update(connection, earlier, read.changes, merges)?;
-    if !merges && job.options.own_edits != OwnEdits::Theirs && !update.edits.is_empty() {
-        report.refuse_own_edits(job.options.own_edits, update.edits);
+    let mut report = FileReport::new(job.path, FileStatus::Imported);
+    if matches!(own_edits, OwnEdits::Ask | OwnEdits::Mine) && !update.edits.is_empty() {
+        report.refuse_own_edits(own_edits, update.edits);
         return Ok(report);
     }
     let mut notes: Vec<String> = Vec::new();
     if update.known > 0 {
         notes.push(format!("rows that say what the corpus has already: {}", update.known));
+    }
+    if is_edited {
+        report.status = FileStatus::Updated;
+        notes.push(
+            "annotations whose rows the table does not have any more stay; rows with the action remove take them away"
+                .to_owned(),
+        );
     }
     let findings = read.findings.iter().cloned();
     report.findings.extend(findings.map(ReportFinding::from));
@@ -94,77 +98,40 @@ pub(super) fn import_change_table(
     job.count_created_rows("annotations", added);
     job.counts.count_changed_rows("annotations", changed);
     job.counts.count_removed_rows("annotations", removed);
-    job.keep_source_file(None, Some(&bytes))?;
+    job.keep_source_file(None, None)?;
     Ok(report)
 }
 
-/// The changes by which an edited table differs from its earlier version.
+/// The changes of a table that the corpus lacks.
 #[derive(Default)]
 struct TableUpdate {
     changes: Vec<AnnotationChange>,
     /// How many added annotations the corpus has already.
     known: usize,
-    /// The edits of the corpus that the changes would take back, or with a merge those that stay.
+    /// The annotations of the corpus that rows of an edited table contradict.
     edits: Vec<OwnEdit>,
 }
 
-/// Plans the changes from one version of a table to the next; with `merges` edits of the corpus stay.
+/// Plans the changes of a table; if it `is_edited`, a row may change the annotation in its place, unless a merge keeps that.
 fn plan_table_update(
     connection: &Connection,
-    earlier: Vec<AnnotationChange>,
-    later: Vec<AnnotationChange>,
+    changes: Vec<AnnotationChange>,
+    is_edited: bool,
     merges: bool,
 ) -> CorpusResult<TableUpdate> {
-    let action_key = |change: &AnnotationChange| format!("{:?}", change.action);
-    let mut gone: BTreeMap<String, AnnotationChange> = earlier
-        .into_iter()
-        .map(|change| (action_key(&change), change))
-        .collect();
-    let (kept, mut later): (Vec<_>, Vec<_>) = later
-        .into_iter()
-        .partition(|change| gone.remove(&action_key(change)).is_some());
     let mut update = TableUpdate::default();
-    for change in gone.into_values() {
-        let Some(place) = place_of_addition(&change.action) else {
-            continue;
-        };
-        let Some(said) = find_table_annotation(connection, &change.action)? else {
-            continue;
-        };
-        let at = later
-            .iter()
-            .position(|other| place_of_addition(&other.action).as_ref() == Some(&place));
-        let wanted = match at {
-            Some(at) => find_table_annotation(connection, &later[at].action)?,
-            None => None,
-        };
-        let is_done = wanted.as_ref().map_or(said.stored.is_none(), |wanted| wanted.is_stored);
-        if is_done {
-            continue;
-        }
-        if !said.is_stored {
-            update.edits.push(own_edit(&said, wanted.as_ref(), merges));
-            if merges {
-                at.map(|at| later.remove(at));
-                continue;
-            }
-        }
-        if said.stored.is_some() {
-            let replaced = at.map(|at| later.remove(at));
-            update.changes.push(replacing_change(place, replaced));
-        }
-    }
-    // Below a row that stands already may hang a new one, which names it by its id in the table.
-    let labelled = kept.into_iter().filter(|change| change.label.is_some());
-    let rows = labelled.map(|change| (change, false));
-    for (change, is_new) in rows.chain(later.into_iter().map(|change| (change, true))) {
+    for change in changes {
         match find_table_annotation(connection, &change.action)? {
             Some(known) if known.is_stored => {
-                update.known += usize::from(is_new);
+                update.known += 1;
                 update.changes.extend(naming_change(change));
             }
-            _ if is_new => update.changes.push(change),
-            _ => {}
+            Some(known) if is_edited && known.stored.is_some() => {
+                update.edits.push(own_edit(&known, merges));
+                let replacing = replacing_change(change);
+                update.changes.extend(replacing.filter(|_| !merges));
+            }
+            _ => update.changes.push(change),
         }
     }
     Ok(update)
@@ -184,7 +151,8 @@ fn place_of_addition(action: &AnnotationAction) -> Option<AnnotationName> {
     }
 }
 
-/// Returns the change that changes nothing and gives an annotation the label of a row; nothing if the row has none.
+/// Returns the change that changes nothing and gives an annotation the label of a row, below which others may hang;
+/// nothing if the row has none.
 fn naming_change(change: AnnotationChange) -> Option<AnnotationChange> {
     let annotation = place_of_addition(&change.action).filter(|_| change.label.is_some())?;
     let action = AnnotationAction::Set {
@@ -196,23 +164,22 @@ fn naming_change(change: AnnotationChange) -> Option<AnnotationChange> {
     Some(AnnotationChange { action, ..change })
 }
 
-/// Returns the change that makes of an annotation that of the row in its place, or removes it.
-fn replacing_change(annotation: AnnotationName, replaced: Option<AnnotationChange>) -> AnnotationChange {
-    let Some(mut change) = replaced else {
-        return AnnotationAction::Remove { annotation }.into();
+/// Returns the change that makes of the annotation in the place of a row that of the row.
+fn replacing_change(change: AnnotationChange) -> Option<AnnotationChange> {
+    let annotation = place_of_addition(&change.action)?;
+    let AnnotationAction::Add { end, value, .. } = change.action else {
+        return None;
     };
-    if let AnnotationAction::Add { end, value, .. } = change.action {
-        change.action = AnnotationAction::Set {
-            annotation,
-            start: None,
-            end,
-            value: Some(value),
-        };
-    }
-    change
+    let action = AnnotationAction::Set {
+        annotation,
+        start: None,
+        end,
+        value: Some(value),
+    };
+    Some(AnnotationChange { action, ..change })
 }
 
-fn own_edit(said: &TableAnnotation, wanted: Option<&TableAnnotation>, merges: bool) -> OwnEdit {
+fn own_edit(said: &TableAnnotation, merges: bool) -> OwnEdit {
     let side = |start_us, end_us, value: &str| AnnotationSide {
         start_us,
         end_us,
@@ -224,7 +191,7 @@ fn own_edit(said: &TableAnnotation, wanted: Option<&TableAnnotation>, merges: bo
             .stored
             .as_ref()
             .map(|row| side(row.start_us, row.end_us, row.file_text())),
-        theirs: wanted.map(|wanted| side(wanted.start_us, wanted.end_us, &wanted.value)),
+        theirs: Some(side(said.start_us, said.end_us, &said.value)),
         outcome: match merges {
             true => EditOutcome::Kept,
             false => EditOutcome::Lost,

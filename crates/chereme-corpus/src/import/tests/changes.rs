@@ -70,73 +70,87 @@ fn a_folder_brings_recordings_and_the_table_of_their_annotations_in_one_step() {
 }
 
 #[test]
-fn an_edited_table_changes_only_what_it_changed() {
-    let desk = Desk::new();
-    let mut corpus = corpus_of_two(&desk);
-    let path = desk.file("t.csv", TABLE);
-    let first = import(&mut corpus, &path, "{}");
-    assert_eq!(first.status, FileStatus::Imported, "{:?}", first.findings);
-    assert!(
-        has(&first.findings, "guessed from their names: Gloss, Mouthing"),
-        "{:?}",
-        first.findings
-    );
-    again::edit(&mut corpus, "chat", Some("mine"));
-    let edited = TABLE.replace("1,2,CHIEN", "1,2.5,CHIEN-2") + "b,Mouthing,2,3,new\n";
-    desk.file("t.csv", &edited.replace("a,Gloss,0,1,CHAT\n", ""));
-    let before = annotations(&corpus);
-    let options = ImportOptions {
-        dry_run: true,
-        ..choose(OwnEdits::Ask)
-    };
-    let tried = take(&mut corpus, std::slice::from_ref(&path), &options);
-    assert_eq!(
-        (tried.files[0].status, annotations(&corpus)),
-        (FileStatus::Updated, before)
-    );
-    let second = import(&mut corpus, &path, "{}");
-    assert_eq!(second.status, FileStatus::Updated, "{:?}", second.findings);
-    let wanted = [
-        "1 Gloss 1000-2500 CHIEN-2",
-        "1 Notes 0-4000 a.eaf",
-        "2 Mouthing 2000-3000 new",
-        "2 Mouthing 500-1000 mine",
-        "2 Notes 0-4000 b.eaf",
-    ];
-    let mut all = annotations(&corpus);
-    all.sort();
-    assert_eq!(all, wanted);
-    assert_whole(&mut corpus);
-}
-
-#[test]
-fn an_edited_table_takes_no_edit_of_the_corpus_back_unasked() {
-    for (own_edits, status, chat) in [
-        (OwnEdits::Ask, FileStatus::Refused, "mine"),
-        (OwnEdits::Mine, FileStatus::Unchanged, "mine"),
-        (OwnEdits::Merge, FileStatus::Updated, "mine"),
-        (OwnEdits::Theirs, FileStatus::Updated, "theirs"),
+fn an_edited_table_adds_its_new_rows_and_asks_before_it_changes_annotations() {
+    for (own_edits, status, kept, edits) in [
+        (OwnEdits::Ask, FileStatus::Refused, &["1 Gloss 1000-2000 CHIEN"][..], 1),
+        (OwnEdits::Mine, FileStatus::Unchanged, &["1 Gloss 1000-2000 CHIEN"], 1),
+        (
+            OwnEdits::Merge,
+            FileStatus::Updated,
+            &["1 Gloss 1000-2000 CHIEN", "2 Mouthing 2000-3000 new"],
+            1,
+        ),
+        (
+            OwnEdits::Theirs,
+            FileStatus::Updated,
+            &["1 Gloss 1000-2500 CHIEN-2", "2 Mouthing 2000-3000 new"],
+            1,
+        ),
     ] {
         let desk = Desk::new();
         let mut corpus = corpus_of_two(&desk);
         let path = desk.file("t.csv", TABLE);
-        import(&mut corpus, &path, "{}");
-        again::edit(&mut corpus, "chat", Some("mine"));
-        desk.file("t.csv", &TABLE.replace("chat", "theirs").replace("CHAT", "LION"));
-        let report = take(&mut corpus, std::slice::from_ref(&path), &choose(own_edits))
-            .files
-            .remove(0);
-        assert_eq!((report.status, report.edits.len()), (status, 1), "{own_edits:?}");
-        let all = annotations(&corpus);
-        let gloss = if status == FileStatus::Updated { "LION" } else { "CHAT" };
-        for value in [chat, gloss] {
-            assert!(
-                all.iter().any(|row| row.ends_with(value)),
-                "{own_edits:?} {value} {all:?}"
-            );
-        }
+        let first = import(&mut corpus, &path, "{}");
+        assert_eq!(first.status, FileStatus::Imported, "{:?}", first.findings);
+        let guess = "guessed from their names: Gloss, Mouthing";
+        assert!(has(&first.findings, guess), "{:?}", first.findings);
+        // A row that the table does not have any more takes nothing away.
+        let edited = TABLE
+            .replace("1,2,CHIEN", "1,2.5,CHIEN-2")
+            .replace("a,Gloss,0,1,CHAT\n", "");
+        desk.file("t.csv", &(edited + "b,Mouthing,2,3,new\n"));
+        let before = annotations(&corpus);
+        let options = ImportOptions {
+            dry_run: true,
+            ..choose(own_edits)
+        };
+        let tried = take(&mut corpus, std::slice::from_ref(&path), &options);
+        assert_eq!((tried.files[0].status, annotations(&corpus)), (status, before));
+        let report = take(&mut corpus, std::slice::from_ref(&path), &choose(own_edits));
+        assert_eq!(
+            (report.files[0].status, report.files[0].edits.len()),
+            (status, edits),
+            "{own_edits:?}"
+        );
+        let mut wanted = vec![
+            "1 Gloss 0-1000 CHAT",
+            "1 Notes 0-4000 a.eaf",
+            "2 Mouthing 500-1000 chat",
+            "2 Notes 0-4000 b.eaf",
+        ];
+        wanted.extend(kept);
+        wanted.sort_unstable();
+        let mut all = annotations(&corpus);
+        all.sort();
+        assert_eq!(all, wanted, "{own_edits:?}");
         assert_whole(&mut corpus);
     }
+}
+
+#[test]
+fn an_unchanged_table_takes_no_edit_back_and_says_what_differs() {
+    let desk = Desk::new();
+    let mut corpus = corpus_of_two(&desk);
+    let path = desk.file("t.csv", TABLE);
+    import(&mut corpus, &path, "{}");
+    again::edit(&mut corpus, "chat", Some("mine"));
+    let before = annotations(&corpus);
+    let report = import(&mut corpus, &path, "{}");
+    assert_eq!((report.status, annotations(&corpus)), (FileStatus::Unchanged, before));
+    assert!(
+        has(&report.findings, "does not have as they are: 1"),
+        "{:?}",
+        report.findings
+    );
+    // Its texts are those of its recordings alone, which may be withheld or forgotten.
+    let kept: i64 = corpus
+        .store
+        .read_connection()
+        .query_row("SELECT count(data) FROM source_file WHERE name = 't.csv'", [], |row| {
+            row.get(0)
+        })
+        .expect("a count");
+    assert_eq!(kept, 0);
 }
 
 #[test]
