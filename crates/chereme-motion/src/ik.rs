@@ -3,20 +3,15 @@
 //! [`two_bone`] is the analytic solution for an arm; it keeps the swivel of the source (the rotation of the elbow about
 //! the line from shoulder to wrist). It is continuous if the source is, and if the target does not pass straight behind
 //! the shoulder. [`solve_fabrik`] is the iterative method of Aristidou & Lasenby 2011 (Graphical Models 73, DOI
-//! 10.1016/j.gmod.2011.05.003) for chains of any length. [`reach_wrist`] moves the wrist of a posture with either, and
-//! rotates the joints to match.
+//! 10.1016/j.gmod.2011.05.003) for chains of any length.
 
 mod fabrik;
-mod ik_reach;
 mod two_bone;
 
 pub use fabrik::{FabrikChain, FabrikOptions, solve_fabrik};
-pub use ik_reach::{ArmReach, ElbowSolver, ReachOptions, WristTarget, reach_wrist};
 pub use two_bone::{TwoBone, TwoBoneOptions, two_bone};
 
 use glam::DVec3;
-
-use crate::hand::BodySide;
 
 /// Why a reach has no solution; a target out of reach is not an error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -30,12 +25,6 @@ pub enum IkError {
     /// A chain has fewer than two points.
     #[error("a chain of {0} points has no bone to turn; it takes two points at least")]
     Short(usize),
-    /// The skeleton has no arm on that side: shoulder, elbow and wrist were not all found.
-    #[error(
-        "the skeleton has no {} arm: name its upper arm, forearm and hand in a roles file",
-        .0.body_side_name()
-    )]
-    NoArm(BodySide),
 }
 
 fn finite(what: &'static str, points: &[DVec3]) -> Result<(), IkError> {

@@ -1,14 +1,10 @@
 //! Golden tables of inverse kinematics.
 
-use glam::{DQuat, DVec3};
+use glam::DVec3;
 
-use super::{dressed, milli, signing, turned};
-use crate::anatomy::tests::fixtures::{BodyVariation, PLAIN_BODY_VARIATION, any_turn};
+use super::milli;
 use crate::golden::{LITTLE, compare, compare_to, put};
-use crate::ik::{
-    ElbowSolver, FabrikOptions, ReachOptions, TwoBoneOptions, WristTarget, reach_wrist, solve_fabrik, two_bone,
-};
-use crate::{BodyPart, BodySide, ModelPose};
+use crate::ik::{FabrikOptions, TwoBoneOptions, solve_fabrik, two_bone};
 
 /// Targets at many distances from the origin, in metres: near, usual, at the reach of half a metre, and beyond.
 fn targets() -> Vec<DVec3> {
@@ -160,109 +156,4 @@ fn golden_chains_that_reach_step_by_step() {
         put(&mut out, odd.expect_err("no chain").to_string());
     }
     compare_to("chains", &out, LITTLE);
-}
-
-#[test]
-fn golden_wrists_that_reach() {
-    let mut out = String::new();
-    let bodies = [
-        ("plain", PLAIN_BODY_VARIATION),
-        (
-            "odd frames",
-            BodyVariation {
-                frames: any_turn,
-                lowered: 0.6,
-                ..PLAIN_BODY_VARIATION
-            },
-        ),
-    ];
-    let usual = ReachOptions::default();
-    let options = [
-        ("usual", usual),
-        (
-            "fabrik",
-            ReachOptions {
-                solver: ElbowSolver::Fabrik,
-                ..usual
-            },
-        ),
-        (
-            "collar",
-            ReachOptions {
-                clavicle: Some(0.9),
-                ..usual
-            },
-        ),
-        (
-            "little collar, soft",
-            ReachOptions {
-                clavicle: Some(0.7),
-                clavicle_limit: 0.1,
-                soft: 0.05,
-                ..usual
-            },
-        ),
-        (
-            "stiff collar",
-            ReachOptions {
-                clavicle: Some(0.7),
-                clavicle_limit: 0.0,
-                ..usual
-            },
-        ),
-    ];
-    for (body, wear) in bodies {
-        let (skeleton, anatomy) = dressed(wear);
-        for (name, options) in options {
-            put(&mut out, format!("## {body}, {name}"));
-            for (n, side) in [BodySide::Right, BodySide::Left]
-                .into_iter()
-                .cycle()
-                .take(8)
-                .enumerate()
-            {
-                let at = n as f64;
-                let mut pose = signing(&skeleton, &anatomy, 0.5 * at);
-                let shoulder = DVec3::new(side.side_sign() * 0.18, 1.43, 0.0);
-                let direction = DVec3::new(-side.side_sign() * (0.4 - 0.2 * at), 0.6 - 0.15 * at, 0.7);
-                let target = WristTarget {
-                    position: shoulder + direction.normalize() * (0.2 + 0.06 * at),
-                    rotation: DQuat::from_rotation_y(0.3 * at) * DQuat::from_rotation_x(0.7),
-                };
-                let reach = reach_wrist(&anatomy, &skeleton, side, &target, &options, &mut pose).expect("a reach");
-                let model = ModelPose::from_local_pose(&skeleton, &pose);
-                put(
-                    &mut out,
-                    format!(
-                        "{} {}: off {:?} extension {:?} soft {} clamped {} collar {:?}",
-                        side.body_side_name(),
-                        milli(target.position),
-                        reach.residual_m,
-                        reach.extension,
-                        reach.soft,
-                        reach.clamped,
-                        reach.clavicle_turn
-                    ),
-                );
-                let parts = [
-                    BodyPart::Clavicle(side),
-                    BodyPart::UpperArm(side),
-                    BodyPart::Forearm(side),
-                    BodyPart::Hand(side),
-                ];
-                for part in parts {
-                    let joint = anatomy.part_joint(part).expect("a joint");
-                    put(
-                        &mut out,
-                        format!(
-                            "  {part} at {} turned {}",
-                            milli(model.model_joint_position(joint)),
-                            turned(model.model_joint_rotation(joint))
-                        ),
-                    );
-                }
-            }
-        }
-    }
-    compare_to("wrists", &out, LITTLE);
 }
