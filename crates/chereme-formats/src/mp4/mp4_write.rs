@@ -142,8 +142,14 @@ impl Mp4Muxer {
                 }));
                 it.extend(boxed(b"mdia", |it| {
                     it.extend(boxed(b"mdhd", |it| {
-                        // The language is "undetermined".
-                        append_box_words(it, &[0, 0, 0, FILM_TICKS_PER_SECOND, ticks as u32, 0x55c4_0000]);
+                        // A film of more than 13 hours has a length of 64 bits (version 1). The language is "undetermined".
+                        match u32::try_from(ticks) {
+                            Ok(ticks) => append_box_words(it, &[0, 0, 0, FILM_TICKS_PER_SECOND, ticks, 0x55c4_0000]),
+                            Err(_) => {
+                                append_box_words(it, &[1 << 24, 0, 0, 0, 0, FILM_TICKS_PER_SECOND]);
+                                append_box_words(it, &[(ticks >> 32) as u32, ticks as u32, 0x55c4_0000]);
+                            }
+                        }
                     }));
                     it.extend(boxed(b"hdlr", |it| {
                         append_box_words(it, &[0, 0]);

@@ -59,10 +59,14 @@ fn sequence_of(profile: u8, format: &str, order: &str, frames: &str) -> Vec<u8> 
 
 /// Returns a film of `count` made-up coded pictures; every fourth refreshes.
 fn film(count: usize) -> Vec<u8> {
+    film_at_rate(count, (25, 1))
+}
+
+fn film_at_rate(count: usize, rate: (u32, u32)) -> Vec<u8> {
     let mut muxer = Mp4Muxer::new(FilmProperties {
         width: 32,
         height: 32,
-        rate: (25, 1),
+        rate,
         colours: PictureColours {
             matrix: 1,
             full_range: false,
@@ -86,6 +90,15 @@ fn film(count: usize) -> Vec<u8> {
     let mut bytes = Vec::new();
     muxer.write_mp4_film(&mut bytes).expect("written");
     bytes
+}
+
+#[test]
+fn a_film_of_more_than_thirteen_hours_has_its_whole_length() {
+    let bytes = film_at_rate(2, (1, 47_000));
+    let clock = &bytes[find(&bytes, b"mdhd")..];
+    let stated = clock[24..32].try_into().expect("eight");
+    assert_eq!((clock[0], u64::from_be_bytes(stated)), (1, 2 * 47_000 * 90_000));
+    assert_eq!(opened(&bytes).timescale, 90_000);
 }
 
 fn opened(bytes: &[u8]) -> Mp4Container {
