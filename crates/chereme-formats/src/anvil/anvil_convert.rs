@@ -2,7 +2,6 @@
 
 use super::anvil_place::{PlacedTrack, place_anvil_tracks};
 use super::anvil_raw::{AnvilDocument, AnvilElement, AnvilTrack};
-use crate::finding::ImportFinding;
 use crate::markup::{UniqueNames, media_from_url, new_timed_annotation, stable_annotation_id};
 use crate::tally::FindingTally;
 use crate::transcript::{
@@ -14,10 +13,9 @@ use chereme_sign::TierStereotype;
 use std::collections::{BTreeMap, HashMap};
 
 /// Returns the meaning of a document.
-pub(super) fn transcript_from_anvil(document: &AnvilDocument<'_>) -> (AnnotationTranscript, Vec<ImportFinding>) {
-    let mut findings = FindingTally::default();
+pub(super) fn transcript_from_anvil(document: &AnvilDocument<'_>, findings: &mut FindingTally) -> AnnotationTranscript {
     let mut transcript = AnnotationTranscript {
-        media: convert_anvil_media(document, &mut findings),
+        media: convert_anvil_media(document, findings),
         properties: document
             .infos
             .iter()
@@ -25,7 +23,7 @@ pub(super) fn transcript_from_anvil(document: &AnvilDocument<'_>) -> (Annotation
             .collect(),
         ..AnnotationTranscript::default()
     };
-    if let Some(specification) = &document.specification {
+    if let Some(specification) = document.specification {
         findings.push_note_finding(
             None,
             format!(
@@ -38,14 +36,13 @@ pub(super) fn transcript_from_anvil(document: &AnvilDocument<'_>) -> (Annotation
             format!("the set {name:?} has no times; its {many} elements were left out")
         });
     }
-    let placed = place_anvil_tracks(document, &mut findings);
+    let placed = place_anvil_tracks(document, findings);
     // Anvil has no annotator of a track; projects state theirs as a property of the whole file.
     let coder = ["coder", "annotator"].iter().find_map(|wanted| {
         let is = |(key, text): &&(String, String)| key.eq_ignore_ascii_case(wanted) && !text.is_empty();
         transcript.properties.iter().find(is)
     });
     let mut tiers = AnvilTierBuilder {
-        document,
         annotator: coder.map(|(_, name)| name.clone()),
         names: UniqueNames::default(),
         ids: UniqueNames::default(),
@@ -54,11 +51,11 @@ pub(super) fn transcript_from_anvil(document: &AnvilDocument<'_>) -> (Annotation
         tiers: Vec::new(),
     };
     for (track, placed) in document.tracks.iter().zip(&placed) {
-        tiers.add_track_tiers(track, placed, &mut findings);
+        tiers.add_track_tiers(track, placed, findings);
     }
-    tiers.link_track_tiers(&placed, &mut findings);
+    tiers.link_track_tiers(&placed, findings);
     transcript.tiers = tiers.tiers;
-    (transcript, findings.finish_finding_tally())
+    transcript
 }
 
 fn convert_anvil_media(document: &AnvilDocument<'_>, findings: &mut FindingTally) -> Vec<TranscriptMedia> {
@@ -78,8 +75,7 @@ fn convert_anvil_media(document: &AnvilDocument<'_>, findings: &mut FindingTally
 }
 
 /// Builds tiers of placed tracks.
-struct AnvilTierBuilder<'d> {
-    document: &'d AnvilDocument<'d>,
+struct AnvilTierBuilder {
     annotator: Option<String>,
     names: UniqueNames,
     ids: UniqueNames,
@@ -89,13 +85,13 @@ struct AnvilTierBuilder<'d> {
     tiers: Vec<TranscriptTier>,
 }
 
-impl AnvilTierBuilder<'_> {
+impl AnvilTierBuilder {
     fn add_track_tiers(&mut self, track: &AnvilTrack<'_>, placed: &PlacedTrack, findings: &mut FindingTally) {
         let mut attributes: Vec<&str> = Vec::new();
         let mut attribute_indices: HashMap<&str, usize> = HashMap::new();
         for attribute in track.elements.iter().flat_map(|element| &element.attributes) {
-            attribute_indices.entry(&attribute.name).or_insert_with(|| {
-                attributes.push(&attribute.name);
+            attribute_indices.entry(attribute.name).or_insert_with(|| {
+                attributes.push(attribute.name);
                 attributes.len() - 1
             });
         }
@@ -120,7 +116,7 @@ impl AnvilTierBuilder<'_> {
             mains.push(main);
             let name = self.names.give_unique_name(&wanted);
             if lane == 0 && name != wanted {
-                findings.add_limited_note("tiers of one name", self.document.anvil_line_at(track.at), || {
+                findings.add_limited_note("tiers of one name", track.source.element_line(), || {
                     format!("another tier is called {:?}, too; here it is {name:?}", track.name)
                 });
             }
@@ -149,7 +145,7 @@ impl AnvilTierBuilder<'_> {
                 for (column, value) in values.iter().filter(|(_, it)| !single && !it.is_empty()) {
                     columns[*column].push((address, place.span, value.clone()));
                 }
-                if let Some(comment) = &element.comment {
+                if let Some(comment) = element.comment {
                     comments.push((address, place.span, comment.to_string()));
                 }
                 let mut row = new_timed_annotation(id, place.span, value);
@@ -211,11 +207,11 @@ impl AnvilTierBuilder<'_> {
                 value.push_str(&format!("{between}{track} {index}"));
             }
             self.links += attribute.links.len() as u64;
-            let number = known[&*attribute.name];
+            let number = known[attribute.name];
             if let Some(before) = values.get_mut(&number) {
                 before.push_str("; ");
                 before.push_str(&value);
-                findings.add_limited_warning("attributes twice", self.document.anvil_line_at(element.at), || {
+                findings.add_limited_warning("attributes twice", element.source.element_line(), || {
                     format!(
                         "an element of the track {:?} has the attribute {:?} twice; both values are kept",
                         track.name, attribute.name

@@ -1,6 +1,6 @@
 //! Places the elements of tracks in time, and below the elements that they refer to.
 
-use super::anvil_raw::{AnvilDocument, AnvilElement, AnvilText, AnvilTrack};
+use super::anvil_raw::{AnvilDocument, AnvilElement, AnvilTrack};
 use crate::finding::ImportFinding;
 use crate::markup::{MAX_TIER_LANES, TimedAnnotation, arrange_tier_lanes, parse_decimal_seconds, report_split_lanes};
 use crate::tally::FindingTally;
@@ -94,7 +94,7 @@ impl<'d> TrackPlacing<'d> {
     fn new(document: &'d AnvilDocument<'d>) -> Self {
         let mut names = HashMap::new();
         for (at, track) in document.tracks.iter().enumerate() {
-            names.entry(&*track.name).or_insert(at);
+            names.entry(track.name).or_insert(at);
         }
         let many = document.tracks.len();
         Self {
@@ -109,10 +109,10 @@ impl<'d> TrackPlacing<'d> {
     fn track_above(&self, track: usize) -> Option<usize> {
         let track = &self.document.tracks[track];
         let refers = matches!(
-            AnvilTrackKind::parse_track_kind(&track.kind),
+            AnvilTrackKind::parse_track_kind(track.kind),
             Some(AnvilTrackKind::Singleton | AnvilTrackKind::Span | AnvilTrackKind::Subdivision)
         );
-        let name = track.reference.as_deref().filter(|_| refers)?;
+        let name = track.reference.filter(|_| refers)?;
         self.names.get(name).copied()
     }
 
@@ -144,7 +144,7 @@ impl<'d> TrackPlacing<'d> {
         );
         let timed = |element: &AnvilElement<'_>| element.group.is_none() && element.reference.is_none();
         if refers && above.is_none() && !(kind == AnvilTrackKind::Subdivision && track.elements.iter().all(timed)) {
-            let named = track.reference.as_deref().unwrap_or_default();
+            let named = track.reference.unwrap_or_default();
             let many = track.elements.len();
             findings.add_limited_finding("tracks without the one they refer to", || {
                 let why = match self.names.contains_key(named) {
@@ -152,7 +152,7 @@ impl<'d> TrackPlacing<'d> {
                     false => format!("refers to {named:?}, which is not in the file"),
                 };
                 ImportFinding::new_warning_finding(
-                    self.document.anvil_line_at(track.at),
+                    track.source.element_line(),
                     format!("the track {:?} {why}; its {many} elements were left out", track.name),
                 )
             });
@@ -182,7 +182,7 @@ impl<'d> TrackPlacing<'d> {
             placed.depth = below.map_or(0, |_| parent.depth + 1);
         }
         for (position, element) in track.elements.iter().enumerate() {
-            let index_text = element.index.as_deref().map(str::trim);
+            let index_text = element.index.map(str::trim);
             let index = index_text.map_or_else(|| position.to_string(), str::to_owned);
             // Of two elements with one number the first is the one that others refer to.
             placed.index.entry(index).or_insert(position);
@@ -200,8 +200,8 @@ impl<'d> TrackPlacing<'d> {
     }
 
     fn anvil_track_kind(&self, track: &AnvilTrack<'_>, findings: &mut FindingTally) -> AnvilTrackKind {
-        AnvilTrackKind::parse_track_kind(&track.kind).unwrap_or_else(|| {
-            findings.add_limited_note("tracks of unknown types", self.document.anvil_line_at(track.at), || {
+        AnvilTrackKind::parse_track_kind(track.kind).unwrap_or_else(|| {
+            findings.add_limited_note("tracks of unknown types", track.source.element_line(), || {
                 format!(
                     "the track {:?} is of the type {:?}, which is not known; its elements are read by their times",
                     track.name, track.kind
@@ -223,19 +223,14 @@ impl<'d> TrackPlacing<'d> {
     ) -> Vec<FoundElement> {
         let mut all = Vec::with_capacity(track.elements.len());
         for (at, element) in track.elements.iter().enumerate() {
-            let instant = |text: &Option<_>| {
-                let text: &Option<AnvilText<'_>> = text;
-                text.as_deref()
-                    .and_then(parse_decimal_seconds)
-                    .map(RecordingInstant::from_micros)
-            };
-            let point = instant(&element.time).or(instant(&element.start));
-            let times = instant(&element.start).zip(instant(&element.end));
+            let instant = |text: Option<&str>| text.and_then(parse_decimal_seconds).map(RecordingInstant::from_micros);
+            let point = instant(element.time).or(instant(element.start));
+            let times = instant(element.start).zip(instant(element.end));
             let time = match (kind, times, point) {
                 (AnvilTrackKind::Point, _, Some(point)) => TimedAnnotation::timed_at_point(point),
                 (_, Some((start, end)), _) => {
-                    let line = || self.document.anvil_line_at(element.at);
-                    TimedAnnotation::timed_between_instants(start, end, &track.name, line, findings)
+                    let line = || element.source.element_line();
+                    TimedAnnotation::timed_between_instants(start, end, track.name, line, findings)
                 }
                 (_, None, Some(point)) if element.time.is_some() => TimedAnnotation::timed_at_point(point),
                 _ => {
@@ -257,9 +252,9 @@ impl<'d> TrackPlacing<'d> {
     fn report_lost_element(&self, track: &AnvilTrack<'_>, at: usize, why: &str, findings: &mut FindingTally) {
         findings.add_limited_finding("elements that were left out", || {
             let element = &track.elements[at];
-            let index = element.index.as_deref().map_or(at.to_string(), str::to_owned);
+            let index = element.index.map_or(at.to_string(), str::to_owned);
             ImportFinding::new_warning_finding(
-                self.document.anvil_line_at(element.at),
+                element.source.element_line(),
                 format!("element {index} of the track {:?} {why} and was left out", track.name),
             )
         });
@@ -275,7 +270,7 @@ impl<'d> TrackPlacing<'d> {
     fn singletons(&self, track: &AnvilTrack<'_>, above: usize, findings: &mut FindingTally) -> Vec<FoundElement> {
         let mut all = Vec::with_capacity(track.elements.len());
         for (at, element) in track.elements.iter().enumerate() {
-            let index = element.reference.as_deref().or(element.start.as_deref());
+            let index = element.reference.or(element.start);
             let Some((parent, place)) = self.referred(above, index) else {
                 self.report_lost_element(track, at, "refers to no element that was read", findings);
                 continue;
@@ -302,9 +297,9 @@ impl<'d> TrackPlacing<'d> {
         let covered = &self.placed[above];
         let mut all = Vec::with_capacity(track.elements.len());
         for (at, element) in track.elements.iter().enumerate() {
-            let first = self.referred(above, element.start.as_deref());
+            let first = self.referred(above, element.start);
             // Without an end it spans one element.
-            let last = self.referred(above, element.end.as_deref().or(element.start.as_deref()));
+            let last = self.referred(above, element.end.or(element.start));
             let (Some((_, first)), Some((_, last))) = (first, last) else {
                 self.report_lost_element(track, at, "refers to no element that was read", findings);
                 continue;
@@ -315,16 +310,16 @@ impl<'d> TrackPlacing<'d> {
                 true => first.span.span_start_instant().max(last.span.span_start_instant()),
                 false => first.span.span_end_instant().max(last.span.span_end_instant()),
             };
-            let line = || self.document.anvil_line_at(element.at);
+            let line = || element.source.element_line();
             all.push(FoundElement {
                 element: at,
-                time: TimedAnnotation::timed_between_instants(start, end, &track.name, line, findings),
+                time: TimedAnnotation::timed_between_instants(start, end, track.name, line, findings),
                 timing: AnnotationTiming::Own,
                 parent: None,
             });
         }
         if !all.is_empty() {
-            findings.add_limited_note("tracks of spans", self.document.anvil_line_at(track.at), || {
+            findings.add_limited_note("tracks of spans", track.source.element_line(), || {
                 format!(
                     "the elements of the track {:?} span those of {:?}: they have their times, and no link to them",
                     track.name, self.document.tracks[above].name
@@ -341,15 +336,12 @@ impl<'d> TrackPlacing<'d> {
         above: usize,
         findings: &mut FindingTally,
     ) -> Vec<FoundElement> {
-        let mut groups: Vec<(Option<&str>, Vec<usize>)> = track
-            .groups
-            .iter()
-            .map(|reference| (reference.as_deref(), Vec::new()))
-            .collect();
+        let mut groups: Vec<(Option<&str>, Vec<usize>)> =
+            track.groups.iter().map(|reference| (*reference, Vec::new())).collect();
         let mut loose: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
         let mut all = Vec::with_capacity(track.elements.len());
         for (at, element) in track.elements.iter().enumerate() {
-            match (element.group, element.reference.as_deref()) {
+            match (element.group, element.reference) {
                 (Some(group), _) => groups[group].1.push(at),
                 // Early versions write the reference at each element instead of at their group.
                 (None, Some(reference)) => loose.entry(reference).or_default().push(at),
@@ -403,13 +395,13 @@ impl<'d> TrackPlacing<'d> {
         (cuts[0], cuts[many]) = (Some(whole.span_start_instant()), Some(whole.span_end_instant()));
         let mut last = whole.span_start_instant();
         for (part, cut) in cuts.iter_mut().enumerate().take(many).skip(1) {
-            let stated = instant(element(part).start.as_deref()).or(instant(element(part - 1).end.as_deref()));
+            let stated = instant(element(part).start).or(instant(element(part - 1).end));
             match stated {
                 Some(stated) if stated > last && stated < whole.span_end_instant() => {
                     *cut = Some(stated);
                     last = stated;
                 }
-                Some(stated) => findings.add_limited_warning("boundaries out of order", self.document.anvil_line_at(element(part).at), || format!(
+                Some(stated) => findings.add_limited_warning("boundaries out of order", element(part).source.element_line(), || format!(
                             "the boundary at {stated} on the track {:?} is out of order; the elements beside it share their time evenly",
                             track.name
                         )),
@@ -454,13 +446,7 @@ impl<'d> TrackPlacing<'d> {
             placed.lanes = vec![0; of.iter().max().map_or(1, |last| last + 1)];
         }
         let of_times: &[usize] = if placed.below.is_none() { &of } else { &[] };
-        report_split_lanes(
-            &track.name,
-            of_times,
-            crowded,
-            || self.document.anvil_line_at(track.at),
-            findings,
-        );
+        report_split_lanes(track.name, of_times, crowded, || track.source.element_line(), findings);
         let mut counts = vec![0; placed.lanes.len()];
         for ((it, lane), time) in found.into_iter().zip(of).zip(times) {
             placed.places[it.element] = Some(ElementPlace {

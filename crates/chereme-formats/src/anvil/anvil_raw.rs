@@ -1,293 +1,164 @@
-//! Mirrors an annotation file of ANVIL: its head, and tracks of elements with attributes.
+//! The parts of an annotation file of ANVIL: its head, and tracks of elements with attributes.
 
 use super::ANVIL_TOOL;
-use crate::eaf;
-use crate::eaf::xml::{XmlCursor, XmlStartTag, line_at_byte};
-use crate::finding::ImportFinding;
-use crate::markup::{MarkupError, UnreadElements, find_tag_attribute};
-use std::borrow::Cow;
-
-/// A text of the file, its references resolved.
-pub type AnvilText<'a> = Cow<'a, str>;
+use crate::markup::{MarkupContents, MarkupElement, MarkupError};
 
 /// An annotation file.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct AnvilDocument<'a> {
+#[derive(Debug)]
+pub(super) struct AnvilDocument<'t> {
     /// `specification`: the file of the coding scheme.
-    pub specification: Option<AnvilText<'a>>,
+    pub(super) specification: Option<&'t str>,
     /// `video` and other elements of the head that name a file, by their names.
-    pub media: Vec<(&'a str, AnvilText<'a>)>,
+    pub(super) media: Vec<(&'t str, &'t str)>,
     /// `info`: keys with their texts.
-    pub infos: Vec<(AnvilText<'a>, AnvilText<'a>)>,
+    pub(super) infos: Vec<(&'t str, &'t str)>,
     /// The tracks in the order of the file.
-    pub tracks: Vec<AnvilTrack<'a>>,
+    pub(super) tracks: Vec<AnvilTrack<'t>>,
     /// `set`: the name, and the number of its elements, which have no times.
-    pub sets: Vec<(AnvilText<'a>, u64)>,
-    /// The text of the file, for line numbers.
-    text: &'a str,
+    pub(super) sets: Vec<(&'t str, usize)>,
 }
 
 /// `track`.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct AnvilTrack<'a> {
+#[derive(Debug)]
+pub(super) struct AnvilTrack<'t> {
     /// `name`, with the names of its groups before it: `Gesture.Phase`.
-    pub name: AnvilText<'a>,
+    pub(super) name: &'t str,
     /// `type`: `primary`, `primarypoint`, `singleton`, `span` or `subdivision`.
-    pub kind: AnvilText<'a>,
+    pub(super) kind: &'t str,
     /// `ref`: the name of the track that this one refers to.
-    pub reference: Option<AnvilText<'a>>,
+    pub(super) reference: Option<&'t str>,
     /// `el`, in the order of the file.
-    pub elements: Vec<AnvilElement<'a>>,
+    pub(super) elements: Vec<AnvilElement<'t>>,
     /// `el-group`: the index of the element that its elements divide.
-    pub groups: Vec<Option<AnvilText<'a>>>,
-    /// The byte at which it starts.
-    pub at: usize,
+    pub(super) groups: Vec<Option<&'t str>>,
+    /// The element itself.
+    pub(super) source: &'t MarkupElement<'t>,
 }
 
 /// `el`.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct AnvilElement<'a> {
+#[derive(Debug)]
+pub(super) struct AnvilElement<'t> {
     /// `index`, by which others refer to it.
-    pub index: Option<AnvilText<'a>>,
+    pub(super) index: Option<&'t str>,
     /// `start`: a time in seconds, or the index of an element.
-    pub start: Option<AnvilText<'a>>,
+    pub(super) start: Option<&'t str>,
     /// `end`: a time in seconds, or the index of an element.
-    pub end: Option<AnvilText<'a>>,
+    pub(super) end: Option<&'t str>,
     /// `time` of a point, in seconds.
-    pub time: Option<AnvilText<'a>>,
+    pub(super) time: Option<&'t str>,
     /// `ref`: the index of an element.
-    pub reference: Option<AnvilText<'a>>,
+    pub(super) reference: Option<&'t str>,
     /// The group of the track that it belongs to.
-    pub group: Option<usize>,
+    pub(super) group: Option<usize>,
     /// `attribute`, in the order of the file.
-    pub attributes: Vec<AnvilAttribute<'a>>,
+    pub(super) attributes: Vec<AnvilAttribute<'t>>,
     /// `comment`.
-    pub comment: Option<AnvilText<'a>>,
-    /// The byte at which it starts.
-    pub at: usize,
+    pub(super) comment: Option<&'t str>,
+    /// The element itself.
+    pub(super) source: &'t MarkupElement<'t>,
 }
 
 /// `attribute`.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct AnvilAttribute<'a> {
+#[derive(Debug)]
+pub(super) struct AnvilAttribute<'t> {
     /// `name`.
-    pub name: AnvilText<'a>,
+    pub(super) name: &'t str,
     /// Its text.
-    pub text: AnvilText<'a>,
+    pub(super) text: &'t str,
     /// Links to other elements: the track and the index.
-    pub links: Vec<(AnvilText<'a>, AnvilText<'a>)>,
+    pub(super) links: Vec<(&'t str, &'t str)>,
 }
 
-impl AnvilDocument<'_> {
-    /// Returns the line of a byte of the file, counted from 1.
-    #[must_use]
-    pub fn anvil_line_at(&self, at: usize) -> u64 {
-        line_at_byte(self.text.as_bytes(), at)
-    }
+/// Returns what is read of an element.
+pub(super) fn anvil_contents(parent: &str, element: &MarkupElement<'_>) -> Option<MarkupContents> {
+    Some(match (parent, element.element_name()) {
+        ("annotation", "head" | "body") | ("body", "track" | "set") => MarkupContents::Elements,
+        ("track", "el" | "el-group") | ("el-group", "el") => MarkupContents::Elements,
+        ("head", "info") | ("el", "comment") => MarkupContents::Text,
+        ("el", "attribute") => MarkupContents::TextWithElements,
+        ("head", "specification") | ("set", _) => MarkupContents::Attributes,
+        ("head", _) if element.stated_attribute("src").is_some() => MarkupContents::Attributes,
+        ("attribute", _) if anvil_link(element).is_some() => MarkupContents::Attributes,
+        _ => return None,
+    })
 }
 
-/// Reads the text of an annotation file.
-///
-/// # Errors
-/// [`MarkupError`] if it is no XML, cut short, declares entities, or its root is not `<annotation>`.
-pub fn read_anvil_document(text: &str) -> Result<(AnvilDocument<'_>, Vec<ImportFinding>), MarkupError> {
-    let (cursor, root) = ANVIL_TOOL.open_markup_root(text)?;
-    let mut reader = AnvilReader {
-        cursor,
-        document: AnvilDocument {
-            text,
-            ..AnvilDocument::default()
-        },
-        unread: UnreadElements::default(),
-        has_body: false,
-    };
-    reader
-        .read_anvil_root(&root)
-        .map_err(|error| MarkupError::from_eaf_error(ANVIL_TOOL, error))?;
-    // Other programs call their root <annotation>, too.
-    if !reader.has_body {
-        return Err(MarkupError::Missing {
-            tool: ANVIL_TOOL.name,
-            line: root.start_tag_line(),
-            parent: ANVIL_TOOL.root,
-            child: "body",
-        });
-    }
-    let mut findings = reader.cursor.findings;
-    reader.unread.report_unread_elements(&mut findings);
-    Ok((reader.document, findings.finish_finding_tally()))
-}
-
-struct AnvilReader<'a> {
-    cursor: XmlCursor<'a>,
-    document: AnvilDocument<'a>,
-    unread: UnreadElements,
-    has_body: bool,
-}
-
-impl<'a> AnvilReader<'a> {
-    fn read_anvil_root(&mut self, root: &XmlStartTag<'a>) -> Result<(), eaf::EafError> {
-        while let Some(child) = self.cursor.next_child_tag(root)? {
-            match child.name {
-                "head" => self.read_anvil_head(&child)?,
-                "body" => {
-                    self.has_body = true;
-                    self.read_anvil_body(&child)?;
-                }
-                _ => self.pass_anvil_element(&child)?,
-            }
-        }
-        self.cursor.check_document_end()
-    }
-
-    /// Passes over an element and counts it.
-    fn pass_anvil_element(&mut self, tag: &XmlStartTag<'a>) -> Result<(), eaf::EafError> {
-        self.unread.count_unread_element(tag.name);
-        self.cursor.skip_xml_element(tag).map(|_| ())
-    }
-
-    fn read_anvil_head(&mut self, head: &XmlStartTag<'a>) -> Result<(), eaf::EafError> {
-        while let Some(child) = self.cursor.next_child_tag(head)? {
-            let source = find_tag_attribute(&mut self.cursor, &child, "src")?;
-            match (child.name, source) {
-                ("specification", source) => {
-                    self.document.specification = source;
-                    self.cursor.skip_xml_element(&child)?;
-                }
-                ("info", _) => {
-                    let key = find_tag_attribute(&mut self.cursor, &child, "key")?.unwrap_or_default();
-                    let text = self.cursor.read_tag_text(&child)?;
-                    self.document.infos.push((key, trim_layout_blanks(text)));
-                }
-                (name, Some(source)) => {
-                    self.document.media.push((name, source));
-                    self.cursor.skip_xml_element(&child)?;
-                }
-                _ => self.pass_anvil_element(&child)?,
-            }
-        }
-        Ok(())
-    }
-
-    fn read_anvil_body(&mut self, body: &XmlStartTag<'a>) -> Result<(), eaf::EafError> {
-        while let Some(child) = self.cursor.next_child_tag(body)? {
-            match child.name {
-                "track" => self.read_anvil_track(&child)?,
-                "set" => {
-                    let name = find_tag_attribute(&mut self.cursor, &child, "name")?.unwrap_or_default();
-                    let mut many = 0;
-                    while let Some(inner) = self.cursor.next_child_tag(&child)? {
-                        many += 1;
-                        self.cursor.skip_xml_element(&inner)?;
-                    }
-                    self.document.sets.push((name, many));
-                }
-                _ => self.pass_anvil_element(&child)?,
-            }
-        }
-        Ok(())
-    }
-
-    fn read_anvil_track(&mut self, tag: &XmlStartTag<'a>) -> Result<(), eaf::EafError> {
-        let mut track = AnvilTrack {
-            at: tag.start_tag_position().0 as usize,
-            ..AnvilTrack::default()
-        };
-        self.cursor.visit_tag_attributes(tag, |name, value| match name {
-            "name" => track.name = value,
-            "type" => track.kind = value,
-            "ref" => track.reference = Some(value),
-            _ => {}
-        })?;
-        while let Some(child) = self.cursor.next_child_tag(tag)? {
-            match child.name {
-                "el" => {
-                    let element = self.read_anvil_element(&child, None)?;
-                    track.elements.push(element);
-                }
-                "el-group" => {
-                    let group = track.groups.len();
-                    let reference = find_tag_attribute(&mut self.cursor, &child, "ref")?;
-                    track.groups.push(reference);
-                    while let Some(inner) = self.cursor.next_child_tag(&child)? {
-                        if inner.name == "el" {
-                            let element = self.read_anvil_element(&inner, Some(group))?;
-                            track.elements.push(element);
-                        } else {
-                            self.pass_anvil_element(&inner)?;
-                        }
-                    }
-                }
-                _ => self.pass_anvil_element(&child)?,
-            }
-        }
-        self.document.tracks.push(track);
-        Ok(())
-    }
-
-    fn read_anvil_element(
-        &mut self,
-        tag: &XmlStartTag<'a>,
-        group: Option<usize>,
-    ) -> Result<AnvilElement<'a>, eaf::EafError> {
-        let mut element = AnvilElement {
-            at: tag.start_tag_position().0 as usize,
-            group,
-            ..AnvilElement::default()
-        };
-        self.cursor.visit_tag_attributes(tag, |name, value| match name {
-            "index" => element.index = Some(value),
-            "start" => element.start = Some(value),
-            "end" => element.end = Some(value),
-            "time" => element.time = Some(value),
-            "ref" => element.reference = Some(value),
-            _ => {}
-        })?;
-        while let Some(child) = self.cursor.next_child_tag(tag)? {
-            match child.name {
-                "attribute" => {
-                    let attribute = self.read_anvil_attribute(&child)?;
-                    element.attributes.push(attribute);
-                }
-                "comment" => {
-                    let text = self.cursor.read_tag_text(&child)?;
-                    element.comment = Some(trim_layout_blanks(text));
-                }
-                _ => self.pass_anvil_element(&child)?,
-            }
-        }
-        Ok(element)
-    }
-
-    fn read_anvil_attribute(&mut self, tag: &XmlStartTag<'a>) -> Result<AnvilAttribute<'a>, eaf::EafError> {
-        let name = find_tag_attribute(&mut self.cursor, tag, "name")?.unwrap_or_default();
-        let mut inner = Vec::new();
-        let text = self.cursor.text_and_elements(tag, &mut inner)?;
-        let mut links = Vec::new();
-        for inner in inner {
-            let (mut track, mut index) = (None, None);
-            self.cursor.visit_tag_attributes(&inner, |name, value| match name {
-                "ref-track" | "track" => track = Some(value),
-                "ref-index" | "index" => index = Some(value),
-                _ => {}
-            })?;
-            match (track, index) {
-                (Some(track), Some(index)) => links.push((track, index)),
-                _ => self.unread.count_unread_element(inner.name),
-            }
-        }
-        Ok(AnvilAttribute {
-            name,
-            text: trim_layout_blanks(text),
-            links,
+impl<'t> AnvilDocument<'t> {
+    /// Returns the parts of a file.
+    pub(super) fn from_anvil_root(root: &'t MarkupElement<'t>) -> Result<Self, MarkupError> {
+        // Other programs call their root <annotation>, too.
+        ANVIL_TOOL.check_child_element(root, "body")?;
+        let source = |element: &'t MarkupElement<'t>| element.stated_attribute("src");
+        let head = root.elements_at(&["head"]).into_iter().flat_map(|head| &head.children);
+        let files = head.filter(|child| !["specification", "info"].contains(&child.element_name()));
+        let info = |info: &'t MarkupElement<'t>| (info.attribute_text("key"), info.text.trim());
+        let set = |set: &'t MarkupElement<'t>| (set.attribute_text("name"), set.children.len());
+        let specifications = root.elements_at(&["head", "specification"]);
+        Ok(Self {
+            specification: specifications.last().and_then(|last| source(last)),
+            media: files
+                .filter_map(|file| Some((file.element_name(), source(file)?)))
+                .collect(),
+            infos: root.elements_at(&["head", "info"]).into_iter().map(info).collect(),
+            tracks: root
+                .elements_at(&["body", "track"])
+                .into_iter()
+                .map(AnvilTrack::from_element)
+                .collect(),
+            sets: root.elements_at(&["body", "set"]).into_iter().map(set).collect(),
         })
     }
 }
 
-/// Returns a text without the blanks around it, which come from the layout of the file.
-fn trim_layout_blanks(text: AnvilText<'_>) -> AnvilText<'_> {
-    match text {
-        Cow::Borrowed(text) => Cow::Borrowed(text.trim()),
-        Cow::Owned(text) => Cow::Owned(text.trim().to_owned()),
+impl<'t> AnvilTrack<'t> {
+    fn from_element(source: &'t MarkupElement<'t>) -> Self {
+        let (mut elements, mut groups) = (Vec::new(), Vec::new());
+        for child in &source.children {
+            if child.element_name() == "el" {
+                elements.push(AnvilElement::from_element(child, None));
+            } else {
+                let members = child.children.iter();
+                elements.extend(members.map(|member| AnvilElement::from_element(member, Some(groups.len()))));
+                groups.push(child.stated_attribute("ref"));
+            }
+        }
+        Self {
+            name: source.attribute_text("name"),
+            kind: source.attribute_text("type"),
+            reference: source.stated_attribute("ref"),
+            elements,
+            groups,
+            source,
+        }
     }
+}
+
+impl<'t> AnvilElement<'t> {
+    fn from_element(source: &'t MarkupElement<'t>, group: Option<usize>) -> Self {
+        let attribute = |attribute: &'t MarkupElement<'t>| AnvilAttribute {
+            name: attribute.attribute_text("name"),
+            text: attribute.text.trim(),
+            links: attribute.children.iter().filter_map(anvil_link).collect(),
+        };
+        Self {
+            index: source.stated_attribute("index"),
+            start: source.stated_attribute("start"),
+            end: source.stated_attribute("end"),
+            time: source.stated_attribute("time"),
+            reference: source.stated_attribute("ref"),
+            group,
+            attributes: source.elements_at(&["attribute"]).into_iter().map(attribute).collect(),
+            comment: source
+                .elements_at(&["comment"])
+                .last()
+                .map(|comment| comment.text.trim()),
+            source,
+        }
+    }
+}
+
+/// Returns the track and the index that an element inside an attribute refers to.
+fn anvil_link<'t>(element: &'t MarkupElement<'_>) -> Option<(&'t str, &'t str)> {
+    let first = |names: [&str; 2]| names.into_iter().find_map(|name| element.stated_attribute(name));
+    Some((first(["ref-track", "track"])?, first(["ref-index", "index"])?))
 }

@@ -1,6 +1,6 @@
 //! Annotation files of ANVIL, `.anvil`.
 //!
-//! [`anvil_raw`] mirrors the file: tracks whose elements have attributes. [`read_anvil`] turns it into a [`AnnotationTranscript`]. A track
+//! [`read_anvil`] turns tracks, whose elements have attributes, into an [`AnnotationTranscript`]. A track
 //! becomes a tier that has its name, groups and all (`Gesture.Phase`). If its elements have one attribute, that is the
 //! value; if they have several, or comments, the tier has one child tier for each (`Gesture.Phase.type`) and no values
 //! of its own. Tracks relate as tiers do: a singleton is a Symbolic_Association below the track that it refers to, a
@@ -9,7 +9,7 @@
 
 mod anvil_convert;
 mod anvil_place;
-pub mod anvil_raw;
+mod anvil_raw;
 #[cfg(test)]
 mod tests;
 
@@ -29,10 +29,8 @@ pub(crate) const ANVIL_TOOL: MarkupTool = MarkupTool {
 /// # Errors
 /// [`MarkupError`] if the bytes are not text, no XML, cut short, declare entities, or are no annotation file of ANVIL.
 pub fn read_anvil(bytes: &[u8]) -> Result<(AnnotationTranscript, Vec<ImportFinding>), MarkupError> {
-    let (text, mut findings) = ANVIL_TOOL.decode_markup_file(bytes)?;
-    let (document, more) = anvil_raw::read_anvil_document(&text)?;
-    findings.extend(more);
-    let (transcript, more) = anvil_convert::transcript_from_anvil(&document);
-    findings.extend(more);
-    Ok((transcript, findings))
+    ANVIL_TOOL.read_markup_file(bytes, anvil_raw::anvil_contents, |root, findings| {
+        let document = anvil_raw::AnvilDocument::from_anvil_root(root)?;
+        Ok(anvil_convert::transcript_from_anvil(&document, findings))
+    })
 }

@@ -1,10 +1,9 @@
 //! Converts a timeline and its events to tiers.
 
-use super::exmaralda_raw::{ExmaraldaDocument, ExmaraldaTier as RawTier, TimelinePoint};
 use crate::finding::ImportFinding;
 use crate::markup::{
-    TimedAnnotation, UniqueNames, arrange_tier_lanes, media_from_url, new_timed_annotation, parse_decimal_seconds,
-    report_split_lanes, stable_annotation_id,
+    MarkupContents, MarkupElement, TimedAnnotation, UniqueNames, arrange_tier_lanes, media_from_url,
+    new_timed_annotation, parse_decimal_seconds, report_split_lanes, stable_annotation_id,
 };
 use crate::tally::FindingTally;
 use crate::transcript::{AnnotationTiming, AnnotationTranscript, TranscriptTier};
@@ -14,46 +13,82 @@ use std::collections::HashMap;
 /// The distance of points if nothing states their times, in microseconds.
 const UNTIMED_STEP_MICROS: i64 = 1_000_000;
 
-/// Returns the meaning of a document.
-pub(super) fn transcript_from_exmaralda(
-    document: &ExmaraldaDocument<'_>,
-) -> (AnnotationTranscript, Vec<ImportFinding>) {
-    let mut findings = FindingTally::default();
-    let times = timeline_point_times(document, &mut findings);
+/// Returns what is read of an element.
+pub(super) fn exmaralda_contents(parent: &str, element: &MarkupElement<'_>) -> Option<MarkupContents> {
+    Some(match (parent, element.element_name()) {
+        ("basic-transcription", "head" | "basic-body" | "body") => MarkupContents::Elements,
+        ("head", "meta-information" | "speakertable") => MarkupContents::Elements,
+        ("meta-information", "ud-meta-information") | ("speakertable", "speaker") => MarkupContents::Elements,
+        ("basic-body" | "body", "common-timeline" | "tier") => MarkupContents::Elements,
+        ("basic-transcription", "tierformat-table") | ("meta-information", "referenced-file") => {
+            MarkupContents::Attributes
+        }
+        ("meta-information" | "ud-meta-information", _) | ("speaker", "abbreviation") => MarkupContents::Text,
+        // Ages, languages and the like of people have no place in a transcript.
+        ("speaker" | "common-timeline", _) => MarkupContents::Attributes,
+        ("tier", "event") => MarkupContents::TextWithElements,
+        _ => return None,
+    })
+}
+
+/// Returns the meaning of a basic transcription.
+pub(super) fn transcript_from_exmaralda(root: &MarkupElement<'_>, findings: &mut FindingTally) -> AnnotationTranscript {
+    let bodies = root
+        .children
+        .iter()
+        .filter(|child| child.element_name().ends_with("body"));
+    let in_bodies = |path: &[&str]| bodies.clone().flat_map(|body| body.elements_at(path)).collect();
+    let timeline: Vec<&MarkupElement<'_>> = in_bodies(&["common-timeline", "tli"]);
+    let tiers: Vec<&MarkupElement<'_>> = in_bodies(&["tier"]);
+    let times = timeline_point_times(&timeline, findings);
     let mut points: HashMap<&str, usize> = HashMap::new();
-    for (at, point) in document.timeline.iter().enumerate() {
-        points.entry(&point.id).or_insert(at);
+    for (at, point) in timeline.iter().enumerate() {
+        points.entry(point.attribute_text("id")).or_insert(at);
     }
+    let files = root.elements_at(&["head", "meta-information", "referenced-file"]);
+    let urls = files.iter().map(|file| file.attribute_text("url").trim());
     let mut transcript = AnnotationTranscript {
-        media: document.files.iter().map(|url| media_from_url(url.trim())).collect(),
-        properties: document
-            .properties
-            .iter()
-            .map(|(name, text)| (name.to_string(), text.trim().to_owned()))
-            .collect(),
+        media: urls.filter(|url| !url.is_empty()).map(media_from_url).collect(),
+        properties: transcription_properties(root),
         ..AnnotationTranscript::default()
     };
     let (mut names, mut ids) = (UniqueNames::default(), UniqueNames::default());
-    for tier in &document.tiers {
-        let tiers = TranscriptionEvents {
-            document,
-            times: &times,
-            points: &points,
-        }
-        .convert_event_tiers(tier, &mut names, &mut ids, &mut findings);
+    let events = TranscriptionEvents {
+        speakers: &root.elements_at(&["head", "speakertable", "speaker"]),
+        times: &times,
+        points: &points,
+    };
+    for tier in tiers {
+        let tiers = events.convert_event_tiers(tier, &mut names, &mut ids, findings);
         transcript.tiers.extend(tiers);
     }
-    (transcript, findings.finish_finding_tally())
+    transcript
+}
+
+/// Returns what the head says about the transcription; the user's own entries name themselves in an attribute.
+fn transcription_properties(root: &MarkupElement<'_>) -> Vec<(String, String)> {
+    let heads = root.elements_at(&["head", "meta-information"]);
+    let entries = heads.into_iter().flat_map(|about| &about.children);
+    let named = entries.flat_map(|entry| match entry.element_name() {
+        "ud-meta-information" => {
+            let own = entry.children.iter();
+            own.map(|own| (own.attribute_text("attribute-name"), own)).collect()
+        }
+        name => vec![(name, entry)],
+    });
+    let stated = named.filter(|(_, entry)| !entry.text.trim().is_empty());
+    stated
+        .map(|(name, entry)| (name.to_owned(), entry.text.trim().to_owned()))
+        .collect()
 }
 
 /// The time of a point, and whether the file states it.
 type TimelinePointTime = (RecordingInstant, bool);
 
 /// Returns the time of each point; one without a time lies evenly between its neighbours.
-fn timeline_point_times(document: &ExmaraldaDocument<'_>, findings: &mut FindingTally) -> Vec<TimelinePointTime> {
-    let timeline = &document.timeline;
-    let stated = |point: &TimelinePoint<'_>| {
-        let text = point.time.as_deref().filter(|text| !text.trim().is_empty())?;
+fn timeline_point_times(timeline: &[&MarkupElement<'_>], findings: &mut FindingTally) -> Vec<TimelinePointTime> {
+    let stated = |point: &MarkupElement<'_>| {
+        let text = point.stated_attribute("time").filter(|text| !text.trim().is_empty())?;
         Some((parse_decimal_seconds(text), text.to_owned()))
     };
     let mut point_times: Vec<Option<i64>> = Vec::with_capacity(timeline.len());
@@ -61,26 +96,22 @@ fn timeline_point_times(document: &ExmaraldaDocument<'_>, findings: &mut Finding
     for point in timeline {
         let time = match stated(point) {
             Some((None, text)) => {
-                findings.add_limited_warning(
-                    "times that are no numbers",
-                    document.exmaralda_line_at(point.at),
-                    || {
-                        format!(
-                            "the time {text:?} of the point {:?} is no number of seconds; it was left out",
-                            point.id
-                        )
-                    },
-                );
+                findings.add_limited_warning("times that are no numbers", point.element_line(), || {
+                    format!(
+                        "the time {text:?} of the point {:?} is no number of seconds; it was left out",
+                        point.attribute_text("id")
+                    )
+                });
                 None
             }
             Some((Some(time), _)) => Some(time),
             None => None,
         };
         if time.is_some_and(|time| time < last) {
-            findings.add_limited_warning("points out of order", document.exmaralda_line_at(point.at), || {
+            findings.add_limited_warning("points out of order", point.element_line(), || {
                 format!(
                     "the point {:?} of the timeline is earlier than the one before it",
-                    point.id
+                    point.attribute_text("id")
                 )
             });
         }
@@ -134,7 +165,7 @@ fn timeline_point_times(document: &ExmaraldaDocument<'_>, findings: &mut Finding
 
 /// The events of a transcription and the times that they refer to.
 struct TranscriptionEvents<'d> {
-    document: &'d ExmaraldaDocument<'d>,
+    speakers: &'d [&'d MarkupElement<'d>],
     times: &'d [TimelinePointTime],
     points: &'d HashMap<&'d str, usize>,
 }
@@ -143,35 +174,38 @@ impl TranscriptionEvents<'_> {
     /// Returns the tier of a file, or several if events overlap.
     fn convert_event_tiers(
         &self,
-        tier: &RawTier<'_>,
+        tier: &MarkupElement<'_>,
         names: &mut UniqueNames,
         ids: &mut UniqueNames,
         findings: &mut FindingTally,
     ) -> Vec<TranscriptTier> {
-        let speaker = tier.speaker.as_deref().filter(|name| !name.is_empty());
+        let speaker = tier.stated_attribute("speaker").filter(|name| !name.is_empty());
         let participant = speaker.map(|id| {
-            let of = self.document.speakers.iter().find(|(known, _)| *known == id);
+            let of = self.speakers.iter().find(|known| known.attribute_text("id") == id);
+            let shorts = of.map(|of| of.elements_at(&["abbreviation"])).unwrap_or_default();
             // The abbreviation is the name that stands on screen; the id is one of the file.
-            let short = of
-                .map(|(_, short)| short.trim())
-                .filter(|abbreviation| !abbreviation.is_empty());
-            short.unwrap_or(id).to_owned()
+            let short = shorts.last().map(|short| short.text.trim());
+            short
+                .filter(|abbreviation| !abbreviation.is_empty())
+                .unwrap_or(id)
+                .to_owned()
         });
-        let category = tier.category.trim();
-        let wanted = match (tier.name.as_deref().map(str::trim), &participant) {
-            (Some(name), _) if !name.is_empty() => name.to_owned(),
+        let category = tier.attribute_text("category").trim();
+        let wanted = match (tier.attribute_text("display-name").trim(), &participant) {
+            (name, _) if !name.is_empty() => name.to_owned(),
             (_, Some(speaker)) => format!("{speaker} [{category}]"),
             (_, None) if !category.is_empty() => category.to_owned(),
-            _ => tier.id.to_string(),
+            _ => tier.attribute_text("id").to_owned(),
         };
-        let mut placed_events = Vec::with_capacity(tier.events.len());
-        for event in &tier.events {
+        let mut placed_events = Vec::with_capacity(tier.children.len());
+        for event in &tier.children {
             let time = |id: &str| self.points.get(id).map(|at| self.times[*at]);
-            let (Some(start), Some(end)) = (time(&event.start), time(&event.end)) else {
-                findings.add_limited_warning("events that were left out", self.document.exmaralda_line_at(event.at), || format!("the event {:?} of the tier {wanted:?} lies between points that the timeline does not have; it was left out", event.text));
+            let (Some(start), Some(end)) = (time(event.attribute_text("start")), time(event.attribute_text("end")))
+            else {
+                findings.add_limited_warning("events that were left out", event.element_line(), || format!("the event {:?} of the tier {wanted:?} lies between points that the timeline does not have; it was left out", event.text));
                 continue;
             };
-            let line = || self.document.exmaralda_line_at(event.at);
+            let line = || event.element_line();
             let time = TimedAnnotation::timed_between_instants(start.0, end.0, &wanted, line, findings);
             let timing = match (start.1, end.1) {
                 (true, true) => AnnotationTiming::Own,
@@ -184,13 +218,7 @@ impl TranscriptionEvents<'_> {
         }
         let mut times: Vec<TimedAnnotation> = placed_events.iter().map(|(_, time, _)| *time).collect();
         let (of, crowded) = arrange_tier_lanes(&mut times);
-        report_split_lanes(
-            &wanted,
-            &of,
-            crowded,
-            || self.document.exmaralda_line_at(tier.at),
-            findings,
-        );
+        report_split_lanes(&wanted, &of, crowded, || tier.element_line(), findings);
         let many = of.iter().max().map_or(1, |last| last + 1);
         let mut tiers: Vec<TranscriptTier> = (0..many)
             .map(|_| TranscriptTier {
@@ -204,7 +232,7 @@ impl TranscriptionEvents<'_> {
             findings.add_limited_finding("tiers of one name", || {
                 let name = &tiers[0].name;
                 ImportFinding::new_note_finding(
-                    self.document.exmaralda_line_at(tier.at),
+                    tier.element_line(),
                     format!("another tier is called {wanted:?}, too; here it is {name:?}"),
                 )
             });

@@ -4,13 +4,10 @@ mod error;
 mod markup_lanes;
 mod markup_names;
 mod markup_times;
+mod markup_tree;
 
-use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use crate::eaf;
-use crate::eaf::xml::{XmlCursor, XmlStartTag};
-use crate::finding::ImportFinding;
 use crate::tally::FindingTally;
 use crate::transcript::{AnnotationTiming, TranscriptAnnotation, TranscriptMedia};
 use chereme_motion::{RecordingInstant, TimeSpan};
@@ -19,48 +16,13 @@ pub use error::MarkupError;
 pub(crate) use markup_lanes::{MAX_TIER_LANES, TimedAnnotation, arrange_tier_lanes, report_split_lanes};
 pub(crate) use markup_names::UniqueNames;
 pub(crate) use markup_times::{parse_decimal_millis, parse_decimal_seconds};
+pub(crate) use markup_tree::{MarkupContents, MarkupElement};
 
 /// The program that writes a kind of file, and the root element of its files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct MarkupTool {
     pub(crate) name: &'static str,
     pub(crate) root: &'static str,
-}
-
-impl MarkupTool {
-    /// Returns the text of a file, with findings about its encoding.
-    pub(crate) fn decode_markup_file(self, bytes: &[u8]) -> Result<(Cow<'_, str>, Vec<ImportFinding>), MarkupError> {
-        let decoded = eaf::decode_eaf(bytes).map_err(|error| MarkupError::from_eaf_error(self, error))?;
-        let mut findings = decoded.findings;
-        // These files are not written again.
-        findings.retain(|finding| !finding.message.contains("written so again"));
-        Ok((decoded.text, findings))
-    }
-
-    /// Returns a cursor at the root element of a text, and the element.
-    pub(crate) fn open_markup_root(self, text: &str) -> Result<(XmlCursor<'_>, XmlStartTag<'_>), MarkupError> {
-        let at_root = || {
-            let mut cursor = XmlCursor::new_with_type(text.as_bytes())?;
-            let root = cursor.read_root_tag(self.root)?;
-            Ok((cursor, root))
-        };
-        at_root().map_err(|error| MarkupError::from_eaf_error(self, error))
-    }
-}
-
-/// Returns one attribute of an element.
-pub(crate) fn find_tag_attribute<'a>(
-    cursor: &mut XmlCursor<'a>,
-    tag: &XmlStartTag<'a>,
-    wanted: &str,
-) -> Result<Option<Cow<'a, str>>, eaf::EafError> {
-    let mut first_value = None;
-    cursor.visit_tag_attributes(tag, |name, value| {
-        if name == wanted && first_value.is_none() {
-            first_value = Some(value);
-        }
-    })?;
-    Ok(first_value)
 }
 
 /// Elements that a reader passed over, by name, with their number.

@@ -1,10 +1,8 @@
 //! Collections of SignStream in XML, as SignStream 2 and the NCSLGR corpus have them.
 //!
-//! [`signstream_raw`] mirrors the file: a coding scheme of fields, and utterances with tracks. [`read_signstream_file`] turns it into a
-//! [`AnnotationTranscript`]: each field becomes a tier, for each participant if there are several, and the utterances become one.
+//! [`read_signstream_file`] turns a coding scheme of fields, and utterances with tracks, into an [`AnnotationTranscript`]: each field becomes a tier, for each participant if there are several, and the utterances become one.
 
 mod signstream_convert;
-pub mod signstream_raw;
 #[cfg(test)]
 mod tests;
 
@@ -26,10 +24,9 @@ pub(crate) const SIGNSTREAM_TOOL: MarkupTool = MarkupTool {
 /// [`MarkupError`] if the bytes are not text, no XML, cut short, declare entities, are no collection, or its utterances lie in
 /// different films.
 pub fn read_signstream_file(bytes: &[u8]) -> Result<(AnnotationTranscript, Vec<ImportFinding>), MarkupError> {
-    let (text, mut findings) = SIGNSTREAM_TOOL.decode_markup_file(bytes)?;
-    let (document, more) = signstream_raw::read_signstream_document(&text)?;
-    findings.extend(more);
-    let (transcript, more) = signstream_convert::interpret_signstream_document(&document)?;
-    findings.extend(more);
-    Ok((transcript, findings))
+    SIGNSTREAM_TOOL.read_markup_file(
+        bytes,
+        signstream_convert::signstream_contents,
+        signstream_convert::transcript_from_signstream,
+    )
 }

@@ -1,42 +1,71 @@
 //! Converts utterances to tiers.
 
-use super::UTTERANCE_TIER_NAME;
-use super::signstream_raw::{SignstreamDocument, SignstreamField, SignstreamItem, SignstreamText, SignstreamUtterance};
-use crate::finding::ImportFinding;
+use super::{SIGNSTREAM_TOOL, UTTERANCE_TIER_NAME};
 use crate::markup::{
-    MarkupError, TimedAnnotation, UniqueNames, arrange_tier_lanes, media_from_url, new_timed_annotation,
-    parse_decimal_millis, report_split_lanes, stable_annotation_id,
+    MarkupContents, MarkupElement, MarkupError, TimedAnnotation, UniqueNames, arrange_tier_lanes, media_from_url,
+    new_timed_annotation, parse_decimal_millis, report_split_lanes, stable_annotation_id,
 };
 use crate::tally::FindingTally;
 use crate::transcript::{AnnotationTranscript, TranscriptTier};
 use chereme_motion::RecordingInstant;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-/// Returns the meaning of a document.
+/// Returns what is read of an element.
+pub(super) fn signstream_contents(parent: &str, element: &MarkupElement<'_>) -> Option<MarkupContents> {
+    Some(match (parent, element.element_name()) {
+        ("SIGNSTREAM-DATABASE", "AUTHOR") | ("TRACK", "A") => MarkupContents::Text,
+        ("SIGNSTREAM-DATABASE", "PARTICIPANTS" | "CODING-SCHEME" | "MEDIA-FILES" | "UTTERANCES") => {
+            MarkupContents::Elements
+        }
+        ("PARTICIPANTS" | "CODING-SCHEME" | "MEDIA-FILES", "FIELD") => MarkupContents::Elements,
+        ("PARTICIPANTS" | "CODING-SCHEME" | "MEDIA-FILES", "PARTICIPANT" | "MEDIA-FILE") => MarkupContents::Attributes,
+        ("UTTERANCES", "UTTERANCE") | ("UTTERANCE", "SEGMENT") | ("SEGMENT", "TRACK") => MarkupContents::Elements,
+        ("FIELD", _) | ("UTTERANCE", "MEDIA-REF") => MarkupContents::Attributes,
+        _ => return None,
+    })
+}
+
+/// Returns the elements of this name in the lists before the utterances.
+fn listed_elements<'t>(root: &'t MarkupElement<'t>, name: &str) -> Vec<&'t MarkupElement<'t>> {
+    let lists = root.children.iter();
+    lists.flat_map(|list| list.elements_at(&[name])).collect()
+}
+
+/// Returns the first of these attributes that is not blank.
+fn first_stated<'t>(element: &'t MarkupElement<'t>, names: &[&str]) -> &'t str {
+    let texts = names.iter().map(|name| element.attribute_text(name).trim());
+    texts.into_iter().find(|text| !text.is_empty()).unwrap_or_default()
+}
+
+/// Returns the meaning of a collection.
 ///
 /// # Errors
-/// [`Error::Films`] if its utterances lie in different films.
-pub(super) fn interpret_signstream_document(
-    document: &SignstreamDocument<'_>,
-) -> Result<(AnnotationTranscript, Vec<ImportFinding>), MarkupError> {
-    let films = count_film_groups(document);
+/// [`MarkupError`] if it holds no utterances, or they lie in different films.
+pub(super) fn transcript_from_signstream(
+    root: &MarkupElement<'_>,
+    findings: &mut FindingTally,
+) -> Result<AnnotationTranscript, MarkupError> {
+    SIGNSTREAM_TOOL.check_child_element(root, "UTTERANCES")?;
+    let utterances = root.elements_at(&["UTTERANCES", "UTTERANCE"]);
+    let films = count_film_groups(&utterances);
     if films > 1 {
         return Err(MarkupError::Films { films });
     }
-    let mut findings = FindingTally::default();
-    let rows = SignstreamRows::new(document).collect_tier_rows(&mut findings);
-    let transcript = AnnotationTranscript {
-        author: document.author.trim().to_owned(),
-        media: document
-            .media
-            .iter()
-            .filter(|(_, path)| !path.trim().is_empty())
-            .map(|(_, path)| media_from_url(&convert_macintosh_path(path.trim())))
+    let rows = SignstreamRows::new(root).collect_tier_rows(&utterances, findings);
+    let files = listed_elements(root, "MEDIA-FILE");
+    let paths = files
+        .iter()
+        .map(|file| first_stated(file, &["LEGACY-PATH", "PATH", "URL", "NAME"]));
+    let authors = root.elements_at(&["AUTHOR"]);
+    Ok(AnnotationTranscript {
+        author: authors.last().map_or("", |author| author.text.trim()).to_owned(),
+        media: paths
+            .filter(|path| !path.is_empty())
+            .map(|path| media_from_url(&convert_macintosh_path(path)))
             .collect(),
-        tiers: build_signstream_tiers(document, rows, &mut findings),
+        tiers: build_signstream_tiers(root, rows, findings),
         ..AnnotationTranscript::default()
-    };
-    Ok((transcript, findings.finish_finding_tally()))
+    })
 }
 
 /// Returns a path with slashes; paths of the classic Macintosh have colons between folders.
@@ -50,11 +79,12 @@ fn convert_macintosh_path(path: &str) -> String {
 }
 
 /// Returns the number of groups of films that no utterance joins.
-fn count_film_groups(document: &SignstreamDocument<'_>) -> usize {
+fn count_film_groups(utterances: &[&MarkupElement<'_>]) -> usize {
     let mut groups: Vec<BTreeSet<&str>> = Vec::new();
     let mut of: HashMap<&str, usize> = HashMap::new();
-    for utterance in &document.utterances {
-        let ids: BTreeSet<&str> = utterance.media.iter().map(|id| id.trim()).collect();
+    for utterance in utterances {
+        let films = utterance.elements_at(&["MEDIA-REF"]).into_iter();
+        let ids: BTreeSet<&str> = films.map(|film| film.attribute_text("ID").trim()).collect();
         let joined: BTreeSet<usize> = ids.iter().filter_map(|id| of.get(id).copied()).collect();
         let mut merged_group = ids;
         for group in joined {
@@ -78,23 +108,26 @@ struct SignstreamRow<'d> {
 }
 
 struct SignstreamRows<'d> {
-    document: &'d SignstreamDocument<'d>,
-    fields: HashMap<&'d str, (&'d SignstreamField<'d>, HashMap<&'d str, &'d str>)>,
+    /// The name of each field, and those of its values.
+    fields: HashMap<&'d str, (&'d str, HashMap<&'d str, &'d str>)>,
     /// The tiers in the order in which they occur.
     keys: Vec<SignstreamTierKey<'d>>,
     rows: BTreeMap<SignstreamTierKey<'d>, Vec<SignstreamRow<'d>>>,
 }
 
 impl<'d> SignstreamRows<'d> {
-    fn new(document: &'d SignstreamDocument<'d>) -> Self {
-        let values = |field: &'d SignstreamField<'d>| {
-            let all = field.values.iter();
-            all.map(|(id, name)| (id.trim(), name.trim())).collect()
+    fn new(root: &'d MarkupElement<'d>) -> Self {
+        let named = |element: &'d MarkupElement<'d>| {
+            let text = |name| element.attribute_text(name).trim();
+            (text("ID"), text("NAME"))
         };
-        let fields = document.fields.iter();
+        let field = |field: &'d MarkupElement<'d>| {
+            let values = field.elements_at(&["VALUE"]).into_iter().map(named).collect();
+            let (id, _) = named(field);
+            (id, (field.attribute_text("NAME"), values))
+        };
         Self {
-            document,
-            fields: fields.map(|field| (field.id.trim(), (field, values(field)))).collect(),
+            fields: listed_elements(root, "FIELD").into_iter().map(field).collect(),
             keys: Vec::new(),
             rows: BTreeMap::new(),
         }
@@ -102,46 +135,50 @@ impl<'d> SignstreamRows<'d> {
 
     fn collect_tier_rows(
         mut self,
+        utterances: &[&'d MarkupElement<'d>],
         findings: &mut FindingTally,
     ) -> Vec<(SignstreamTierKey<'d>, Vec<SignstreamRow<'d>>)> {
-        let document = self.document;
-        for utterance in &document.utterances {
-            let time = |text: &SignstreamText<'_>| parse_decimal_millis(text);
-            let (Some(start), Some(end)) = (time(&utterance.start), time(&utterance.end)) else {
-                self.report_untimed_annotation(utterance, utterance.at, findings);
+        let times = |element: &MarkupElement<'_>| {
+            let [start, end] = ["S", "E"].map(|name| parse_decimal_millis(element.attribute_text(name)));
+            start.zip(end)
+        };
+        for utterance in utterances {
+            let Some((start, end)) = times(utterance) else {
+                report_untimed_annotation(utterance, utterance, findings);
                 continue;
             };
-            let line = || document.signstream_line_at(utterance.at);
             let utterance_time = TimedAnnotation::timed_between_instants(
-                instant_from_micros(start),
-                instant_from_micros(end),
+                RecordingInstant::from_micros(start),
+                RecordingInstant::from_micros(end),
                 UTTERANCE_TIER_NAME,
-                line,
+                || utterance.element_line(),
                 findings,
             );
             self.add_tier_row(
                 ("", ""),
                 SignstreamRow {
                     time: utterance_time,
-                    value: &utterance.id,
+                    value: utterance.attribute_text("ID"),
                 },
             );
-            for track in &utterance.tracks {
-                for item in &track.items {
-                    let (Some(from), Some(to)) = (time(&item.start), time(&item.end)) else {
-                        self.report_untimed_annotation(utterance, item.at, findings);
-                        continue;
-                    };
-                    let line = || document.signstream_line_at(item.at);
-                    // Times of items count from the start of their utterance.
-                    let [from, to] = [from, to].map(|offset| instant_from_micros(start.saturating_add(offset)));
-                    let name = self.fields.get(track.field.trim()).map_or("", |field| &field.0.name);
-                    let time = TimedAnnotation::timed_between_instants(from, to, name, line, findings);
-                    let value = self.signstream_item_text(&track.field, item, findings);
-                    self.add_tier_row(
-                        (track.participant.trim(), track.field.trim()),
-                        SignstreamRow { time, value },
-                    );
+            for segment in utterance.elements_at(&["SEGMENT"]) {
+                let participant = segment.attribute_text("PARTICIPANT-ID").trim();
+                for track in segment.elements_at(&["TRACK"]) {
+                    let field = track.attribute_text("FID");
+                    for item in &track.children {
+                        let Some((from, to)) = times(item) else {
+                            report_untimed_annotation(utterance, item, findings);
+                            continue;
+                        };
+                        // Times of items count from the start of their utterance.
+                        let [from, to] =
+                            [from, to].map(|offset| RecordingInstant::from_micros(start.saturating_add(offset)));
+                        let name = self.fields.get(field.trim()).map_or("", |field| field.0);
+                        let line = || item.element_line();
+                        let time = TimedAnnotation::timed_between_instants(from, to, name, line, findings);
+                        let value = self.signstream_item_text(field, item, findings);
+                        self.add_tier_row((participant, field.trim()), SignstreamRow { time, value });
+                    }
                 }
             }
         }
@@ -158,51 +195,37 @@ impl<'d> SignstreamRows<'d> {
         rows.push(row);
     }
 
-    fn report_untimed_annotation(&self, utterance: &SignstreamUtterance<'_>, at: usize, findings: &mut FindingTally) {
-        findings.add_limited_warning(
-            "annotations without times",
-            self.document.signstream_line_at(at),
-            || {
-                format!(
-                    "an annotation of the utterance {:?} has no times in milliseconds; it was left out",
-                    utterance.id
-                )
-            },
-        );
-    }
-
     /// Returns the text of an annotation, else the name of its value.
-    fn signstream_item_text(
-        &self,
-        field: &'d SignstreamText<'d>,
-        item: &'d SignstreamItem<'d>,
-        findings: &mut FindingTally,
-    ) -> &'d str {
+    fn signstream_item_text(&self, field: &str, item: &'d MarkupElement<'d>, findings: &mut FindingTally) -> &'d str {
         let text = item.text.trim();
-        let Some(id) = item.value.as_deref().map(str::trim).filter(|_| text.is_empty()) else {
+        let value = item.stated_attribute("VID").map(str::trim);
+        let Some(id) = value.filter(|_| text.is_empty()) else {
             return text;
         };
         let field_entry = self.fields.get(field.trim());
         match field_entry.and_then(|(_, values)| values.get(id)) {
             Some(name) => name,
             None => {
-                findings.add_limited_warning(
-                    "values that the coding scheme lacks",
-                    self.document.signstream_line_at(item.at),
-                    || format!("the coding scheme has no value {id:?} of the field {field:?}; the number is kept"),
-                );
+                findings.add_limited_warning("values that the coding scheme lacks", item.element_line(), || {
+                    format!("the coding scheme has no value {id:?} of the field {field:?}; the number is kept")
+                });
                 id
             }
         }
     }
 }
 
-fn instant_from_micros(micros: i64) -> RecordingInstant {
-    RecordingInstant::from_micros(micros)
+fn report_untimed_annotation(utterance: &MarkupElement<'_>, untimed: &MarkupElement<'_>, findings: &mut FindingTally) {
+    findings.add_limited_warning("annotations without times", untimed.element_line(), || {
+        format!(
+            "an annotation of the utterance {:?} has no times in milliseconds; it was left out",
+            utterance.attribute_text("ID")
+        )
+    });
 }
 
 fn build_signstream_tiers(
-    document: &SignstreamDocument<'_>,
+    root: &MarkupElement<'_>,
     rows: Vec<(SignstreamTierKey<'_>, Vec<SignstreamRow<'_>>)>,
     findings: &mut FindingTally,
 ) -> Vec<TranscriptTier> {
@@ -212,23 +235,17 @@ fn build_signstream_tiers(
     let (mut names, mut ids) = (UniqueNames::default(), UniqueNames::default());
     let mut all = Vec::new();
     for ((person, field), rows) in rows {
-        let named = |list: &[(SignstreamText<'_>, SignstreamText<'_>)], wanted: &str| {
-            let list_entry = list.iter().find(|(id, _)| id.trim() == wanted);
-            list_entry
-                .map(|(_, name)| name.trim().to_owned())
-                .filter(|name| !name.is_empty())
+        let named = |list: &str, wanted: &str, names: &[&str]| {
+            let listed = listed_elements(root, list).into_iter();
+            let mut matching = listed.filter(|listed| listed.attribute_text("ID").trim() == wanted);
+            let name = first_stated(matching.next()?, names);
+            Some(name.to_owned()).filter(|name| !name.is_empty())
         };
-        let participant =
-            named(&document.participants, person).or_else(|| (!person.is_empty()).then(|| person.to_owned()));
+        let participant = named("PARTICIPANT", person, &["LABEL", "NAME"])
+            .or_else(|| (!person.is_empty()).then(|| person.to_owned()));
         let field = match field {
             "" if person.is_empty() => UTTERANCE_TIER_NAME.to_owned(),
-            id => {
-                let matched_field = document.fields.iter().find(|field| field.id.trim() == id);
-                let name = matched_field
-                    .map(|field| field.name.trim())
-                    .filter(|name| !name.is_empty());
-                name.map_or_else(|| format!("field {id}"), str::to_owned)
-            }
+            id => named("FIELD", id, &["NAME"]).unwrap_or_else(|| format!("field {id}")),
         };
         let wanted = match &participant {
             Some(person) if several => format!("{person} {field}"),

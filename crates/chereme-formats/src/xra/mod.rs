@@ -1,12 +1,11 @@
 //! Annotations of SPPAS, `.xra`: tiers, alternatives, and which tier follows which.
 //!
-//! [`xra_raw`] mirrors the file, of any version from 1.1 to 1.5. [`read_xra`] turns it into an [`AnnotationTranscript`]: the
+//! [`read_xra`] turns a file of any version from 1.1 to 1.5 into an [`AnnotationTranscript`]: the
 //! labels of an annotation stand on lines of their own, alternatives of a label in braces (`{l|l-@}`), and a tier of
 //! points has the kind [`POINT_TIER_KIND`](crate::transcript::POINT_TIER_KIND). [`write_xra`] undoes this, and writes
 //! keys of cued speech as SPPAS does, as two labels: the shape, and the letter of the placement.
 
 mod xra_convert;
-pub mod xra_raw;
 mod xra_write;
 
 #[cfg(test)]
@@ -36,10 +35,7 @@ const STEREOTYPE_KEY: &str = "tier_stereotype";
 /// # Errors
 /// [`MarkupError`] if the bytes are not text, no XML, cut short, declare entities, or are no document of SPPAS.
 pub fn read_xra(bytes: &[u8]) -> Result<(AnnotationTranscript, Vec<ImportFinding>), MarkupError> {
-    let (text, mut findings) = SPPAS_TOOL.decode_markup_file(bytes)?;
-    let (document, more) = xra_raw::read_xra_document(&text)?;
-    findings.extend(more);
-    let (transcript, more) = xra_convert::transcript_from_xra(&document);
-    findings.extend(more);
-    Ok((transcript, findings))
+    SPPAS_TOOL.read_markup_file(bytes, xra_convert::xra_contents, |root, findings| {
+        Ok(xra_convert::transcript_from_xra(root, findings))
+    })
 }
