@@ -416,63 +416,6 @@ impl TierSet {
         overlaps
     }
 
-    /// Returns this set with the positions and times of all symbolic annotations recomputed from their parents:
-    /// positions counted from 0 in their order, times divided evenly.
-    ///
-    /// For sets from files, which give symbolic annotations no times.
-    #[must_use]
-    pub fn with_settled_tiers(mut self) -> Self {
-        let symbolic = |tier: &&Tier| !tier.is_alignable();
-        let mut tiers: Vec<(TierId, Option<TierId>)> = self
-            .tiers
-            .values()
-            .filter(symbolic)
-            .map(|tier| (tier.id, tier.parent_id()))
-            .collect();
-        let mut ready = true;
-        while ready {
-            let waiting: BTreeSet<TierId> = tiers.iter().map(|(id, _)| *id).collect();
-            let (now, later): (Vec<_>, Vec<_>) = tiers
-                .into_iter()
-                .partition(|(_, above)| above.is_none_or(|above| !waiting.contains(&above)));
-            ready = !now.is_empty();
-            now.into_iter().for_each(|(id, _)| self.settle_symbolic_tier(id));
-            tiers = later;
-        }
-        self
-    }
-
-    fn settle_symbolic_tier(&mut self, tier: TierId) {
-        let mut families: BTreeMap<AnnotationId, Vec<TierAnnotation>> = BTreeMap::new();
-        for child in self.annotations_on_tier(tier) {
-            if let Some(parent) = child.parent {
-                families.entry(parent).or_default().push(child.clone());
-            }
-        }
-        let listed = self.tier_by_id(tier).and_then(Tier::tier_stereotype) == Some(TierStereotype::SymbolicSubdivision);
-        for (parent, mut family) in families {
-            let Some(span) = self.annotation_by_id(parent).map(|parent| parent.span) else {
-                continue;
-            };
-            // Children with the same place stay in the order in which they were made.
-            family.sort_by_key(|child| (child.order, child.id));
-            let count = family.len();
-            for (place, mut child) in family.into_iter().enumerate() {
-                child.order = if listed {
-                    u32::try_from(place).unwrap_or(u32::MAX)
-                } else {
-                    0
-                };
-                child.span = if listed {
-                    subdivision_share(span, place, count)
-                } else {
-                    span
-                };
-                self.put_annotation(child);
-            }
-        }
-    }
-
     /// Carries out `edits` in their order.
     pub fn apply_edits(&mut self, edits: impl IntoIterator<Item = TierEdit>) {
         for edit in edits {

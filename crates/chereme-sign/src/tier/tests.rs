@@ -453,19 +453,3 @@ fn stereotypes_have_the_names_of_elan() {
     );
     assert_eq!(TierStereotype::from_elan_name("Sub"), None);
 }
-
-#[test]
-fn settling_gives_symbolic_annotations_times_and_orders() {
-    let example = example();
-    let broken = example.all_annotations().cloned().map(|mut note| {
-        if [LIST, ASSOCIATED, BELOW_TIME, BELOW_LIST].contains(&note.tier.0) {
-            note.span = span(0, 0);
-            note.order = note.order * 3 + 1;
-        }
-        note
-    });
-    assert_eq!(
-        TierSet::new(tiers(), broken.collect::<Vec<_>>()).with_settled_tiers(),
-        example
-    );
-}
