@@ -19,7 +19,7 @@ const ARROWS: [(&str, &[&str]); 11] = [
         "chereme-corpus",
         &["data", "motion", "sign", "formats", "analysis", "compose", "figure"],
     ),
-    ("chereme-studio", &["motion", "sign", "figure", "corpus"]),
+    ("chereme-studio", &["data", "motion", "sign", "figure", "corpus"]),
     ("chereme-cli", &["motion", "sign", "figure", "corpus"]),
     (
         "chereme-tests",

@@ -130,7 +130,7 @@ impl PhraseBook {
                 continue;
             };
             match id.split('-').next() {
-                Some("history" | "noun") => {}
+                Some("history" | "noun" | "window") => {}
                 Some(kind) => {
                     let key = (kind.to_owned(), english.phrase_form());
                     book.fixed_texts.insert(key, other.phrase_form());
@@ -227,7 +227,7 @@ mod tests {
                     let kind = id.split('-').next().unwrap_or_default();
                     let kinds = [
                         "message", "line", "help", "title", "guide", "menu", "page", "operator", "language", "history",
-                        "noun",
+                        "noun", "window",
                     ];
                     assert!(kinds.contains(&kind), "{}", phrase.place);
                     let place = phrase.place.clone();
@@ -262,7 +262,7 @@ mod tests {
             let other = &others[&id];
             assert!(other.own_length() > 0 || phrase.own_length() == 0, "{id}");
             let kind = id.split('-').next().unwrap_or_default().to_owned();
-            if ["menu", "page", "language", "history", "noun"].contains(&kind.as_str()) {
+            if ["menu", "page", "language", "history", "noun", "window"].contains(&kind.as_str()) {
                 continue;
             }
             let first = known.insert((kind, phrase.phrase_form()), other.clone());

@@ -1,8 +1,8 @@
 //! Folders of words: one for each language, named by its code, with files in Fluent's syntax.
 //!
 //! `schema/words/LANGUAGE/ROOM.ftl` holds the phrases of a room. A phrase has the same id in all languages; the id begins with
-//! its kind: `message`, `line`, `help`, `title`, `guide`, `menu`, `page`, `history` or `noun`; the last two may choose among
-//! variants. Comments in the files are for translators.
+//! its kind: `message`, `line`, `help`, `title`, `guide`, `menu`, `window`, `page`, `history` or `noun`; the last two may choose
+//! among variants. Comments in the files are for translators.
 //! [`add_word_files`] adds a folder of the user's own, whose phrases come before those of the program.
 
 use std::borrow::Cow;

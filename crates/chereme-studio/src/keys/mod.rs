@@ -88,7 +88,8 @@ impl ActionKeys {
     pub(crate) fn name_keys_in_text(&self, text: &str) -> String {
         let mut replaced = text.to_owned();
         for row in ACTIONS {
-            let place = format!("{{{}}}", row.id);
+            // A variable part of a phrase has no dots.
+            let place = format!("{{{}}}", row.id.replace('.', "-"));
             if replaced.contains(&place) {
                 let keys = self
                     .chords_of_action(row.action)

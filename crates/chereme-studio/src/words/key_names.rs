@@ -4,26 +4,7 @@ use eframe::egui::Key;
 
 use super::InterfaceText;
 
-texts! {
-    CTRL: "Ctrl", "Ctrl";
-    SHIFT: "Shift", "Maj";
-    ALT: "Alt", "Alt";
-    SPACE: "Space", "Espace";
-    ENTER: "Enter", "Entrée";
-    TAB: "Tab", "Tab";
-    ESCAPE: "Escape", "Échap";
-    BACKSPACE: "Backspace", "Retour arrière";
-    DELETE: "Delete", "Suppr";
-    INSERT: "Insert", "Inser";
-    HOME: "Home", "Origine";
-    END: "End", "Fin";
-    PAGE_UP: "PageUp", "Page préc.";
-    PAGE_DOWN: "PageDown", "Page suiv.";
-    LEFT: "Left", "Gauche";
-    RIGHT: "Right", "Droite";
-    UP: "Up", "Haut";
-    DOWN: "Down", "Bas";
-}
+pub(crate) use super::texts::key_names::*;
 
 /// The keys whose names are words.
 pub(crate) const KEY_NAME_TEXTS: [(Key, InterfaceText); 15] = [

@@ -1,0 +1,30 @@
+## Descriptions of the HamNoSys symbols, shown on hover.
+
+window-hamnosys-extfinger = the fingers point { $way }
+window-hamnosys-move = moves { $way }
+window-hamnosys-palm = the palm faces { $way }
+window-hamnosys-circle = a circle, clockwise for who looks { $way }
+window-hamnosys-clock = at the circle’s point { $way }
+window-hamnosys-copy-symbols = Copy as HamNoSys
+window-hamnosys-copy-names = Copy the names
+window-hamnosys-strip = HamNoSys: { $names }
+window-hamnosys-board = Symbols
+window-hamnosys-find = Type to find a symbol
+window-hamnosys-take-back = Take back
+window-hamnosys-no-symbol = No symbol fits.
+window-hamnosys-handshapes = Handshapes
+window-hamnosys-thumb-and-bends = Thumb and bends
+window-hamnosys-fingers-point = Where the fingers point
+window-hamnosys-palm-faces = Where the palm faces
+window-hamnosys-places = Places
+window-hamnosys-about-places = About places
+window-hamnosys-hand-parts = Parts of the hand
+window-hamnosys-digits = Digits
+window-hamnosys-finger-parts = Parts of a finger
+window-hamnosys-contacts = Contacts
+window-hamnosys-movements = Movements
+window-hamnosys-about-movements = About movements
+window-hamnosys-manner = Manner
+window-hamnosys-repetition = Repetition
+window-hamnosys-hands-and-links = Hands, and between symbols
+window-hamnosys-brackets = Brackets

@@ -1,0 +1,44 @@
+## Texts of the window for work on the tiers of many recordings.
+
+window-tier-round-title = Tiers of many recordings
+window-tier-round-recordings = In which recordings
+window-tier-round-every = All: { $n }
+window-tier-round-found = Those with a token that a query finds
+window-tier-round-named = Those of a name or a signer
+window-tier-round-ticked = Those that are ticked: { $n }
+window-tier-round-query = Query
+window-tier-round-query-hint = signer=S07 placement=chin
+window-tier-round-pattern = Name, where * stands for any letters
+window-tier-round-pattern-hint = S07*, or signer:S07
+window-tier-round-work = Work
+window-tier-round-add-usual = add the usual tiers
+window-tier-round-add-like = add the tiers of the open recording
+window-tier-round-add = add a tier
+window-tier-round-change = change tiers
+window-tier-round-copy = copy tiers
+window-tier-round-remove = remove tiers
+window-tier-round-shift = move tiers in time
+window-tier-round-tier = Tiers of this name
+window-tier-round-tier-hint = { "*" } stands for any letters
+window-tier-round-shifted = Tiers of these names
+window-tier-round-shifted-hint = parted by commas; empty: all
+window-tier-round-new-name = New name
+window-tier-round-copy-name = Name of the copies
+window-tier-round-kept = as it is
+window-tier-round-removed = removed
+window-tier-round-parent = Below the tier
+window-tier-round-participant = Participant
+window-tier-round-annotator = Annotator
+window-tier-round-language = Language
+window-tier-round-changes-text = Change: { $field }
+window-tier-round-seconds = By seconds, earlier with -
+window-tier-round-skip = Leave out recordings that refuse
+window-tier-round-try = Show what would change
+window-tier-round-carry-out = Carry out
+window-tier-round-would = Would change: { $n } · refuse: { $refusing } · stay as they are: { $same }
+window-tier-round-row = { $name }: { $tiers } ({ $annotations })
+window-tier-round-refuses = { $name } refuses: { $why }
+window-tier-round-refused = Nothing is done while a recording refuses: leave it out, or change the work.
+window-tier-round-stopped = Stopped; nothing was changed.
+window-tier-round-task = Working on tiers
+window-tier-round-only-with-tokens = The query is about tokens: recordings without one are left out.

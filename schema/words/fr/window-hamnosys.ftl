@@ -1,0 +1,30 @@
+## Descriptions of the HamNoSys symbols, shown on hover.
+
+window-hamnosys-extfinger = les doigts pointent { $way }
+window-hamnosys-move = va { $way }
+window-hamnosys-palm = la paume regarde { $way }
+window-hamnosys-circle = un cercle, dans le sens des aiguilles pour qui regarde { $way }
+window-hamnosys-clock = au point du cercle { $way }
+window-hamnosys-copy-symbols = Copier en HamNoSys
+window-hamnosys-copy-names = Copier les noms
+window-hamnosys-strip = HamNoSys : { $names }
+window-hamnosys-board = Symboles
+window-hamnosys-find = Taper pour trouver un symbole
+window-hamnosys-take-back = Retirer
+window-hamnosys-no-symbol = Aucun symbole ne correspond.
+window-hamnosys-handshapes = Configurations
+window-hamnosys-thumb-and-bends = Pouce et flexions
+window-hamnosys-fingers-point = Direction des doigts
+window-hamnosys-palm-faces = Direction de la paume
+window-hamnosys-places = Emplacements
+window-hamnosys-about-places = Autour des emplacements
+window-hamnosys-hand-parts = Parties de la main
+window-hamnosys-digits = Doigts
+window-hamnosys-finger-parts = Parties du doigt
+window-hamnosys-contacts = Contacts
+window-hamnosys-movements = Mouvements
+window-hamnosys-about-movements = Autour des mouvements
+window-hamnosys-manner = Manière
+window-hamnosys-repetition = Répétition
+window-hamnosys-hands-and-links = Mains, et entre symboles
+window-hamnosys-brackets = Crochets

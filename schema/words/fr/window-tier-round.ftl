@@ -1,0 +1,44 @@
+## Texts of the window for work on the tiers of many recordings.
+
+window-tier-round-title = Acteurs de plusieurs enregistrements
+window-tier-round-recordings = Dans quels enregistrements
+window-tier-round-every = Tous : { $n }
+window-tier-round-found = Ceux qui ont une occurrence trouvée par une requête
+window-tier-round-named = Ceux d’un nom ou d’un participant
+window-tier-round-ticked = Ceux qui sont cochés : { $n }
+window-tier-round-query = Requête
+window-tier-round-query-hint = signer=S07 placement=chin
+window-tier-round-pattern = Nom, où * remplace des lettres
+window-tier-round-pattern-hint = S07*, ou signer:S07
+window-tier-round-work = Travail
+window-tier-round-add-usual = ajouter les acteurs habituels
+window-tier-round-add-like = ajouter les acteurs de l’enregistrement ouvert
+window-tier-round-add = ajouter un acteur
+window-tier-round-change = modifier des acteurs
+window-tier-round-copy = copier des acteurs
+window-tier-round-remove = supprimer des acteurs
+window-tier-round-shift = décaler des acteurs dans le temps
+window-tier-round-tier = Acteurs de ce nom
+window-tier-round-tier-hint = { "*" } remplace des lettres
+window-tier-round-shifted = Acteurs de ces noms
+window-tier-round-shifted-hint = séparés par des virgules ; vide : tous
+window-tier-round-new-name = Nouveau nom
+window-tier-round-copy-name = Nom des copies
+window-tier-round-kept = inchangé
+window-tier-round-removed = retiré
+window-tier-round-parent = Dépend de l’acteur
+window-tier-round-participant = Participant
+window-tier-round-annotator = Annotateur
+window-tier-round-language = Langue
+window-tier-round-changes-text = Modifier : { $field }
+window-tier-round-seconds = De secondes, plus tôt avec -
+window-tier-round-skip = Laisser de côté ceux qui refusent
+window-tier-round-try = Montrer ce qui changerait
+window-tier-round-carry-out = Exécuter
+window-tier-round-would = Changeraient : { $n } · refusent : { $refusing } · inchangés : { $same }
+window-tier-round-row = { $name } : { $tiers } ({ $annotations })
+window-tier-round-refuses = { $name } refuse : { $why }
+window-tier-round-refused = Rien ne se fait tant qu’un enregistrement refuse : laissez-le de côté, ou changez le travail.
+window-tier-round-stopped = Arrêté ; rien n’a été modifié.
+window-tier-round-task = Travail sur les acteurs
+window-tier-round-only-with-tokens = La requête porte sur des occurrences : les enregistrements sans occurrence sont laissés de côté.
