@@ -138,8 +138,10 @@ impl InterfaceText {
     pub fn text_in_language(self, language: InterfaceLanguage) -> &'static str {
         match language {
             _ if self.lies_in_folders => {
-                let id = self.en.to_lowercase().replace(['.', '_'], "-");
-                phrase_text(&id, language).unwrap_or(self.en)
+                // Most ids are written as in their files, and windows ask for hundreds of them in each frame.
+                let lowered = || self.en.to_lowercase().replace(['.', '_'], "-");
+                let words = phrase_text(self.en, language).or_else(|| phrase_text(&lowered(), language));
+                words.unwrap_or(self.en)
             }
             InterfaceLanguage::French => self.fr,
             InterfaceLanguage::English | InterfaceLanguage::Other(_) => self.en,
