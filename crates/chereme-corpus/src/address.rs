@@ -163,8 +163,8 @@ pub(crate) fn find_addressed_token(connection: &Connection, address: &CorpusAddr
 
 /// Returns the sign with exactly this gloss, otherwise the only one that differs from it in case and accents alone.
 ///
-/// `NGT/BOOK` is the sign of that lexicon, unless a gloss is written so. A gloss that several lexicons have is an error
-/// with the candidates.
+/// `NGT/BOOK` is the sign of that lexicon and `BOOK#2` the second entry of that gloss, unless a gloss is written so. A
+/// gloss that several lexicons or entries have is an error with the candidates.
 pub(crate) fn find_sign_by_gloss(connection: &Connection, gloss: &str) -> CorpusResult<i64> {
     // A gloss may itself contain a stroke, so the whole text comes first.
     if let Some(id) = find_only_sign(connection, gloss)? {
@@ -201,7 +201,7 @@ pub(crate) fn find_sign_by_gloss(connection: &Connection, gloss: &str) -> Corpus
 /// Returns the sign with exactly this gloss, if there is one.
 ///
 /// # Errors
-/// Fails if several lexicons have it.
+/// Fails if several lexicons or entries have it.
 fn find_only_sign(connection: &Connection, gloss: &str) -> CorpusResult<Option<i64>> {
     match signs::find_signs_of_gloss(connection, gloss)?.as_slice() {
         [] => Ok(None),
@@ -212,15 +212,26 @@ fn find_only_sign(connection: &Connection, gloss: &str) -> CorpusResult<Option<i
 
 /// Returns the addresses that keep signs of one gloss apart; the one that belongs to no lexicon is known by its number.
 pub(crate) fn lexicon_addresses(signs: &[SignByLexicon], gloss: &str) -> impl Iterator<Item = String> {
-    signs.iter().map(move |sign| match &sign.lexicon {
-        Some(lexicon) => CorpusAddress::Sign(RowName::Text(format!("{lexicon}/{gloss}"))).to_string(),
-        None => format!("sign:{} (in no lexicon)", sign.id),
+    signs.iter().map(move |sign| {
+        let is_namesake = |other: &SignByLexicon| other.id != sign.id && other.lexicon == sign.lexicon;
+        let number = match signs.iter().any(is_namesake) {
+            true => format!("#{}", sign.number),
+            false => String::new(),
+        };
+        match &sign.lexicon {
+            Some(lexicon) => CorpusAddress::Sign(RowName::Text(format!("{lexicon}/{gloss}{number}"))).to_string(),
+            None => format!("sign:{} (in no lexicon)", sign.id),
+        }
     })
 }
 
 fn find_lexicon_entry(connection: &Connection, lexicon: &LexiconRow, gloss: &str) -> CorpusResult<i64> {
-    if let Some(id) = signs::find_sign(connection, Some(lexicon.id), gloss)? {
-        return Ok(id);
+    let mut signs = signs::find_signs_of_gloss(connection, gloss)?;
+    signs.retain(|sign| sign.lexicon.as_ref() == Some(&lexicon.name));
+    match signs.as_slice() {
+        [] => {}
+        [one] => return Ok(one.id),
+        several => return Err(ambiguous_name_error(gloss, lexicon_addresses(several, gloss))),
     }
     let glosses = signs::glosses_of_lexicon(connection, lexicon.id)?;
     let folded = fold_text(gloss);

@@ -11,7 +11,6 @@ use crate::db::people::{self, PersonContents};
 use crate::db::signs::{self, TokenRow};
 use crate::db::stored_attributes;
 use crate::db::stored_contents as rows;
-use crate::db::stored_inventories::load_inventory_rows as inventory_rows;
 use crate::db::stored_recordings::{self, MediaTrackRow, RecordingRow, SignerRow};
 use crate::db::stored_rows::KeptSearch;
 pub use crate::db::stored_rows::{AnnotationColumns, RecordingGlance, ShownFrames, SignGlance};
@@ -20,7 +19,7 @@ use crate::db::stored_tiers::{self, TierRow};
 use crate::db::stored_tracks::{self, TrackRow};
 use crate::db::{OperationRow, history_log};
 use crate::error::CorpusResult;
-use crate::inventories::{self, StoredInventory};
+use crate::inventories::{self, EqualValues, StoredInventory};
 use crate::merge::CorpusConflict;
 use crate::search::saved_search;
 use crate::tokens;
@@ -44,6 +43,8 @@ pub struct CorpusOverview {
     pub people: Vec<PersonContents>,
     /// The inventories, oldest first.
     pub inventories: Vec<StoredInventory>,
+    /// The values of different inventories that are one.
+    pub equal_values: EqualValues,
     /// The names of the attributes of signs, in order.
     pub attributes: Vec<String>,
     /// The saved searches, by name.
@@ -116,7 +117,6 @@ impl Corpus {
     pub fn load_corpus_overview(&self, operations: usize) -> CorpusResult<CorpusOverview> {
         // All parts must show the same moment, also while another program writes.
         let reading = begin_reading(self.store.read_connection())?;
-        let inventories = inventory_rows(&reading, None)?;
         Ok(CorpusOverview {
             generation: rows::newest_operation_number(&reading)?,
             read_only: rows::is_read_only(&reading)?,
@@ -125,10 +125,8 @@ impl Corpus {
             lexicons: lexicons::load_lexicon_rows(&reading)?,
             signers: stored_recordings::load_signer_rows(&reading)?,
             people: people::load_people(&reading)?,
-            inventories: inventories
-                .into_iter()
-                .map(inventories::stored_inventory_from_row)
-                .collect::<CorpusResult<_>>()?,
+            inventories: inventories::load_all_inventories(&reading)?,
+            equal_values: EqualValues::load_equal_values(&reading)?,
             attributes: stored_attributes::list_attribute_names(&reading)?,
             searches: saved_search::list_saved_searches(&reading)?,
             operations: history_log(&reading, operations)?,

@@ -274,7 +274,7 @@ impl DeletionPlan {
             names.insert(stored_recordings::load_recording_row(connection, *recording)?.name);
         }
         for sign in &self.signs {
-            names.insert(edits::sign_gloss_and_notes(connection, *sign)?.0);
+            names.insert(signs::sign_label(connection, *sign)?);
         }
         Ok(names.into_iter().collect())
     }
@@ -290,7 +290,7 @@ impl DeletionPlan {
             done.recordings.push(count_deleted_recording(connection, *recording)?);
         }
         for sign in &self.signs {
-            done.signs.push(edits::sign_gloss_and_notes(connection, *sign)?.0);
+            done.signs.push(signs::sign_label(connection, *sign)?);
         }
         Ok(done)
     }

@@ -15,6 +15,7 @@ use crate::db::stored_search::begin_reading;
 use crate::db::stored_tracks::{self, TrackRow};
 use crate::db::{edits, notations, recipes};
 use crate::error::{CorpusError, CorpusResult};
+use crate::inventories::ValueName;
 use crate::media::MediaPlace;
 use crate::movement::MotionTrack;
 use crate::notation;
@@ -30,8 +31,21 @@ pub enum ObjectDetails {
     Signer(SignerDetails),
     /// Details of a recording.
     Recording(RecordingDetails),
-    /// A value of an inventory: the row of the inventory, the value's id, and the number of tokens that have it.
-    Value(i64, String, u64),
+    /// Details of a value of an inventory.
+    Value(ValueDetails),
+}
+
+/// Full details of a value of an inventory.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ValueDetails {
+    /// The row of the inventory.
+    pub inventory: i64,
+    /// The value's id.
+    pub value: String,
+    /// The number of tokens that have it.
+    pub uses: u64,
+    /// The values of other inventories that may be the same, with the reasons.
+    pub proposals: Vec<(ValueName, Vec<&'static str>)>,
 }
 
 /// Full details of a token.
@@ -73,7 +87,7 @@ pub struct TokenValue {
 pub struct SignDetails {
     /// The row.
     pub id: i64,
-    /// The gloss.
+    /// The gloss; that of a further entry of one gloss has its number behind it: `BANK#2`.
     pub gloss: String,
     /// The lexicon to which it belongs, if it belongs to one.
     pub lexicon: Option<String>,
@@ -192,11 +206,11 @@ impl Corpus {
             RowName::Text(gloss) => address::find_sign_by_gloss(&reading, gloss)?,
         };
         let tokens = signs::tokens_of_sign(&reading, id)?;
-        let (gloss, notes) = edits::sign_gloss_and_notes(&reading, id)
+        let (_, notes) = edits::sign_gloss_and_notes(&reading, id)
             .map_err(|_| CorpusError::from_wrong_message(format!("there is no sign:{id}")))?;
         Ok(SignDetails {
             id,
-            gloss,
+            gloss: signs::sign_label(&reading, id)?,
             lexicon: lexicons::lexicon_name_of_sign(&reading, id)?,
             notes,
             texts: signs::list_sign_translations(&reading, id)?,
@@ -267,12 +281,29 @@ impl Corpus {
         Ok(details)
     }
 
-    /// Returns the number of tokens that have this value of the inventory of that row.
+    /// Returns full details of this value of the inventory of that row.
     ///
     /// # Errors
     /// Fails if the database fails.
-    pub fn value_uses(&self, inventory: i64, value: &str) -> CorpusResult<u64> {
-        signs::tokens_with(self.store.read_connection(), inventory, value)
+    pub fn value_details(&self, inventory: i64, value: &str) -> CorpusResult<ValueDetails> {
+        let stored = self.inventories_now()?;
+        let of_row = stored.iter().find(|stored| stored.id == inventory);
+        let key = of_row.map_or("", |stored| stored.inventory.id.as_str());
+        let is_value = |name: &ValueName| name.inventory == key && name.value == value;
+        let mut proposals = Vec::new();
+        for proposal in self.propose_equal_values()? {
+            if is_value(&proposal.value) {
+                proposals.push((proposal.other, proposal.reasons));
+            } else if is_value(&proposal.other) {
+                proposals.push((proposal.value, proposal.reasons));
+            }
+        }
+        Ok(ValueDetails {
+            inventory,
+            value: value.to_owned(),
+            uses: signs::tokens_with(self.store.read_connection(), inventory, value)?,
+            proposals,
+        })
     }
 }
 
@@ -317,7 +348,9 @@ mod tests {
             .find(|it| it.component == SignComponent::Configuration && it.inventory.is_some())
             .expect("a handshape");
         let (inventory, id) = (value.inventory.expect("one"), value.value.clone());
-        let uses = corpus.value_uses(inventory, &id.expect("one"));
+        let uses = corpus
+            .value_details(inventory, &id.expect("one"))
+            .map(|details| details.uses);
         assert!(uses.expect("counted") > 0);
         let recording = RowName::Number(source.row.recording_id.expect("one"));
         let recording = corpus.recording_details(&recording).expect("details");

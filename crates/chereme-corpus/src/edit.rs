@@ -137,7 +137,8 @@ impl Corpus {
         })
     }
 
-    /// Changes the gloss, notes or translations of a sign, and returns its gloss.
+    /// Changes the gloss, notes or translations of a sign, and returns its gloss. `BANK#2` makes it the second entry with the
+    /// gloss of another sign of its lexicon.
     ///
     /// # Errors
     /// Fails if the sign or a translation to remove does not exist, or the gloss is another sign's.
@@ -147,19 +148,24 @@ impl Corpus {
                 RowName::Number(id) => sign_there(connection, *id)?,
                 RowName::Text(gloss) => address::find_sign_by_gloss(connection, gloss)?,
             };
-            let (old, mut notes) = edits::sign_gloss_and_notes(connection, id)?;
+            let old = signs::sign_label(connection, id)?;
+            let (_, mut notes) = edits::sign_gloss_and_notes(connection, id)?;
             let gloss = match &change.gloss {
                 Some(gloss) => require_trimmed_name(gloss, "sign")?,
                 None => old.clone(),
             };
             // Signs of different lexicons may share a gloss.
-            if signs::find_sign(connection, lexicons::lexicon_of_sign(connection, id)?, &gloss)?
-                .is_some_and(|other| other != id)
-            {
+            let lexicon = lexicons::lexicon_of_sign(connection, id)?;
+            let entry = match signs::split_entry_label(&gloss) {
+                Some(entry) if signs::find_sign(connection, lexicon, entry.0)?.is_some() => entry,
+                _ => (gloss.as_str(), 1),
+            };
+            if signs::find_entry(connection, lexicon, entry.0, Some(entry.1))?.is_some_and(|other| other != id) {
                 return Err(taken("sign", &gloss));
             }
             apply_optional_change(&mut notes, change.notes.as_ref());
-            edits::update_sign(connection, id, &gloss, notes.as_deref())?;
+            edits::update_sign(connection, id, entry, notes.as_deref())?;
+            let gloss = signs::sign_label(connection, id)?;
             let renamed = if gloss == old {
                 0
             } else {

@@ -1,5 +1,7 @@
 //! The inventories of a corpus: the built-in ones, and those from imported files.
 
+mod equal_values;
+
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -12,6 +14,8 @@ use crate::Corpus;
 use crate::db::stored_contents::newest_operation_number;
 use crate::db::{damaged_row_error, stored_inventories as rows};
 use crate::error::CorpusResult;
+
+pub use equal_values::{EqualValues, ValueName};
 
 /// An inventory of the corpus with its row.
 #[derive(Debug, Clone)]

@@ -1,5 +1,8 @@
 //! Lexicons: whose entry a sign is, and which lexicon the glosses of a recording mean.
 
+pub(crate) mod entry_match;
+mod unite_lexicons;
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_sign::ErrorRemedy;
@@ -15,6 +18,8 @@ use crate::inventories;
 use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
 use crate::tokens;
 use crate::words::effect::OperationEffect;
+
+pub use unite_lexicons::UnitedLexicons;
 
 /// The lexicons whose signs are compared, counted or published together.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -117,7 +122,7 @@ impl Corpus {
                 return Err(CorpusError::from_wrong_message(text)
                     .with_error_place(&row.name)
                     .with_advice(ErrorRemedy::command_remedy(
-                        "delete its signs first with `chereme delete CORPUS sign:NAME/GLOSS`, or import its table again with --lexicon and the name of another",
+                        "delete its signs first with `chereme delete CORPUS sign:NAME/GLOSS`, make it one with another with `chereme lexicon CORPUS unite NAME --into OTHER`, or import its table again with --lexicon",
                     )));
             }
             lexicons::delete_lexicon(connection, row.id)?;

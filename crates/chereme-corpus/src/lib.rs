@@ -145,7 +145,9 @@ pub use db::stored_rows::KeptSearch;
 pub use db::stored_tiers::{TierRow, TierShown, proposed_for};
 pub use db::{OperationKind, OperationRow, SchemaUpgrade, on_waiting};
 pub use delete::{DeleteOptions, DeletedRecording, DeletionDependent, DeletionReport, DependentsPolicy};
-pub use details::{ObjectDetails, RecordingDetails, SignDetails, SignerDetails, TokenDetails, TokenValue};
+pub use details::{
+    ObjectDetails, RecordingDetails, SignDetails, SignerDetails, TokenDetails, TokenValue, ValueDetails,
+};
 pub use detect::{
     DetectOptions, DetectedIn, DetectionReport, DetectionUse, FaceProposals, GLOSSES_FROM_NAMES, ProposedAnnotation,
     UndetectedIn,
@@ -169,9 +171,9 @@ pub use import::{
     read_stream, readable_files, time_of_day,
 };
 pub use info::{AttributeInfo, CorpusInfo, InventoryInfo, SignerInfo, TrackAmount};
-pub use inventories::StoredInventory;
+pub use inventories::{EqualValues, StoredInventory, ValueName};
 pub use kinematics::KinematicCurves;
-pub use lexicon::{LexiconChange, LexiconScope, LinkedRecordings};
+pub use lexicon::{LexiconChange, LexiconScope, LinkedRecordings, UnitedLexicons};
 pub use list::{ListFilter, ListKind, ListedRows, cell_text, components_text};
 pub use log::{ChangeKind, ChangedRow, FieldChange, OperationDetail, change_sentence};
 pub use map::{MapOptions, MapPoint, SignMap};
@@ -207,7 +209,7 @@ pub use track::{
     TrackAlignment, TrackChange, TrackContent, TrackKind, TrackRow,
 };
 pub use transcribe::{SignTranscription, TranscribedFeature, TranscribedStage, TranscribedValue};
-pub use values::MergedValues;
+pub use values::{EqualProposal, MergedValues};
 pub use word_coverage::{LanguageCoverage, MissingPhrase, PhraseFault, language_coverage, use_word_folder};
 pub use words::effect::ConflictDecision;
 

@@ -1,5 +1,7 @@
 //! Adding and merging values of inventories.
 
+mod equate;
+
 use chereme_sign::ErrorRemedy;
 use chereme_sign::text::{did_you_mean, fold_text, nearest_candidate};
 use chereme_sign::{ComponentInventory, InventoryValue};
@@ -12,6 +14,8 @@ use crate::error::{CorpusError, CorpusResult};
 use crate::inventories::{self, StoredInventory};
 use crate::tokens;
 use crate::words::effect::OperationEffect;
+
+pub use equate::EqualProposal;
 
 /// The result of a merge of values.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -96,6 +100,7 @@ impl Corpus {
                 }
             }
             let entries = rows::replace_lexicon_value(connection, stored.id, &gone.id, &left)?;
+            rows::pass_same_as(connection, &stored.inventory.id, [&gone.id, &left])?;
             rows::delete_value(connection, stored.id, &gone.id)?;
             inventories::store_inventory(connection, &merge_inventory_value(&stored.inventory, &gone, &left))?;
             rederive_inventory_tokens(connection, stored.id)?;

@@ -275,12 +275,8 @@ fn signs_like_the_selected_one_are_found_weighted_and_shown_as_a_table() {
     assert_eq!(hits(&window), 1);
 }
 
-#[test]
-fn the_inspector_describes_a_facet_and_a_value_of_a_picker() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let mut window = searching(folder.path());
-    type_query(&mut window, "gloss=ESCARGOT");
-    enter(&mut window);
+/// Opens the first handshape of the facets in the inspector, and returns it.
+fn inspect_handshape_facet(window: &mut Window<'_>) -> String {
     let facet = |window: &Window<'_>| {
         let found = window.get_all_by_role(Role::Button).find_map(|node| {
             let label = node.accesskit_node().label()?;
@@ -289,7 +285,7 @@ fn the_inspector_describes_a_facet_and_a_value_of_a_picker() {
         });
         found.expect("a facet of handshapes")
     };
-    let (at, label) = facet(&window);
+    let (at, label) = facet(window);
     let value = label.split(['=', ' ']).nth(1).expect("a value").to_owned();
     for pressed in [true, false] {
         let event = eframe::egui::Event::PointerButton {
@@ -301,10 +297,67 @@ fn the_inspector_describes_a_facet_and_a_value_of_a_picker() {
         window.event_modifiers(event, Modifiers::COMMAND);
         window.step();
     }
+    until(window, "the value", |window| has(window, "← What is selected"));
+    value
+}
+
+#[test]
+fn values_of_two_inventories_are_made_one_in_the_inspector_and_parted_again() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = small_corpus(folder.path());
+    let table = folder.path().join("words.csv");
+    std::fs::write(&table, "Gloss,Handshape\nMAIN,palm-hand\n").expect("written");
+    let mut corpus = chereme_corpus::Corpus::open_corpus(&path, "A").expect("opened");
+    let progress = &mut chereme_corpus::ProgressReceiver::silent_progress();
+    let imported = corpus.import_paths(&[table], &chereme_corpus::ImportOptions::default(), progress);
+    imported.expect("imported");
+    drop(corpus);
+    let mut window = common::window(chereme_studio::StudioOptions {
+        corpus: Some(path.clone()),
+        ..options(folder.path())
+    });
+    until(&mut window, "the corpus", |window| has(window, "escargot"));
+    idle(&mut window);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::F2);
+    window.run_steps(2);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::F);
+    window.run_steps(3);
+    type_query(&mut window, "gloss=MAIN");
+    enter(&mut window);
+    assert_eq!(inspect_handshape_facet(&mut window), "palm-hand");
+    until(&mut window, "its details", |window| has(window, "Make one with"));
+    window.get_by_label("Make one with").focus();
+    window.run_steps(2);
+    window.get_by_label("Make one with").type_text("configurations/flat");
+    window.run_steps(3);
+    window.key_press(Key::Enter);
+    idle(&mut window);
+    until(&mut window, "the other value", |window| {
+        has(window, "One with no other")
+    });
+    let groups = || {
+        let corpus = chereme_corpus::Corpus::open_corpus(&path, "B").expect("opened");
+        corpus.list_equal_values().expect("a list").equal_groups().len()
+    };
+    assert!(has(&window, "configurations/flat"));
+    assert_eq!(groups(), 1);
+    click(&mut window, "One with no other");
+    idle(&mut window);
+    assert_eq!(groups(), 0);
+}
+
+#[test]
+fn the_inspector_describes_a_facet_and_a_value_of_a_picker() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = searching(folder.path());
+    type_query(&mut window, "gloss=ESCARGOT");
+    enter(&mut window);
+    let value = inspect_handshape_facet(&mut window);
     // The answer reports it, and the query stays.
-    until(&mut window, "the value", |window| has(window, "← What is selected"));
     assert_eq!(query(&window), "gloss=ESCARGOT");
-    assert!(window.query_all_by_label_contains(&value).count() > 1);
+    until(&mut window, "its details", |window| {
+        window.query_all_by_label_contains(&value).count() > 1
+    });
 }
 
 #[test]

@@ -5,12 +5,16 @@ line-command-lexicon-removed = lexicon removed: { $name }
 message-command-lexicon-nothing-changed = nothing is to be changed
 message-command-lexicon-add-option = add --name, --language, --release, --terms, --citation or --notes
 message-command-lexicon-no-lexicon = the corpus has no lexicon: import a table or notation with --lexicon NAME
+line-command-lexicon-united = { $names }: one lexicon with { $name } now; entries that came: { $moved }, joined: { $joined }
+line-command-lexicon-both-codings = both codings were kept of: { $list }
+line-command-lexicon-other-numbers = entries with another number: { $list }
+message-command-lexicon-bare-glosses = tokens annotated with the bare gloss of several entries, of which the first was taken: { $n }
 
 ## Help of commands and options.
 
 help-command-lexicon-list-change-link = List the lexicons of a corpus, say what they are, and link recordings to them
 help-command-lexicon-sign-is-entry = A sign is an entry of a lexicon: BOOK of an American and BOOK of a British lexicon are two signs. An imported table is a lexicon with the name of its file, unless the import names one. Where several lexicons have a gloss, write which one is meant: sign:NGT/BOOK. Queries know lexicon=NGT, language=dse and file=ngt.csv.
-help-command-lexicon-glosses-looked-up = The glosses of a recording's tiers are looked up in the lexicon to which the recording is linked; those that it does not have are signs of no lexicon. The recordings of a corpus with one lexicon are linked to it; with several, link them yourself. Without an action the lexicons are listed. `--json` gives for each "id", "name", "language", "version", "terms", "citation", "notes", "signs", "files", "recordings" and "tokens".
+help-command-lexicon-glosses-looked-up = The glosses of a recording's tiers are looked up in the lexicon to which the recording is linked; those that it does not have are signs of no lexicon. The recordings of a corpus with one lexicon are linked to it; with several, link them yourself. Without an action the lexicons are listed. `--json` gives for each "id", "name", "language", "version", "terms", "citation", "notes", "signs", "homonyms", "files", "recordings", "tokens" and "guessed_tokens".
 help-command-lexicon-say-what-it-is = Say what a lexicon is: its name, language, version, terms, and how to cite it
 help-command-lexicon-look-up = Look up the glosses of recordings in a lexicon from now on
 help-command-lexicon-look-up-in-none = Look up the glosses of recordings in no lexicon
@@ -28,6 +32,11 @@ help-command-lexicon-compare-others = Compare it with the signs of other lexicon
 help-command-lexicon-import-into = The lexicon to which the signs of tables and notation belong; without it a table is one of its own, and notation belongs to the only one of the corpus
 help-command-lexicon-import-language = The sign language of that lexicon, as a code of ISO 639-3 such as dse
 help-command-lexicon-pairs-of-query = The tokens whose signs are compared, as in `chereme search`; without it the citation forms
+help-command-lexicon-entries-of-one-gloss = Several entries may have one gloss: BANK, BANK#2. A table keeps them apart by a column that identifies its rows, such as id, or by a column "homonym" with 1, 2 and so on. A bare gloss in an annotation means the first ("guessed_tokens" counts these); write BANK#2 for the second. sign:BANK#2 names it, gloss=BANK finds all.
+help-command-lexicon-unite = Make lexicons one: entries, recordings and files belong to the one that stays; undo takes it back
+help-command-lexicon-same-entries = Entries are the same if their rows have the same id, otherwise by gloss and number. Both codings are kept, as two forms of one entry, and entries that differ are named. Lexicons that differ in language, version, terms or citation are refused.
+help-command-lexicon-that-go = The lexicons that go
+help-command-lexicon-that-stays = The lexicon that stays
 
 ## Titles of columns.
 

@@ -244,3 +244,6 @@ line-importing-holds-settings-of-elan = settings of ELAN
 line-importing-holds-films = films
 line-importing-holds-templates-of-elan = templates of ELAN
 message-importing-rows-recognised-by-column = its rows were recognised by the column { $quoted }: { $new } new, { $changed } changed, { $unchanged } as before, { $gone } gone
+message-importing-entries-of-shared-glosses = entries whose gloss another entry has, too: { $n } ({ $list }); annotations of the bare gloss mean the first
+message-importing-bare-glosses = glosses of several entries, of which the first was taken: { $list }
+message-importing-name-second-entry = write { $label } in an annotation that means the second; `chereme list CORPUS signs` lists the entries

@@ -111,6 +111,7 @@ message-messages-no-format = { $what } is no format
 message-messages-table-asks-for-nothing = the table asks for nothing
 message-messages-counts-narrower-values-too-counts-value = { $condition } counts narrower values, too: { $values }; == counts the value alone
 message-messages-counts-values-equal-by-alias-too = { $condition } counts values that are equal to it by an alias, too: { $values }; { $field }== with one of these names counts it alone
+message-messages-counts-values-that-are-one = { $condition } counts values that are one with it, too: { $values }
 message-messages-matched = { $condition } matched: { $values }
 message-messages-no-coded-in-this-corpus-yet = { $condition }: no { $field } is coded in this corpus yet
 message-messages-finds-nothing-there = { $condition } finds nothing: { $why }; there are: { $names }
@@ -151,7 +152,7 @@ message-messages-pace-from-0-1-10-1 = a pace from 0.1 to 10; 1.6 is usual for pe
 message-messages-no-duration-in-milliseconds = { $label }: { $text } is no duration in milliseconds
 message-messages-write-for-example-120-from-1 = write for example a=120: from 1 to 60000
 message-messages-lexicon-has-signs = the lexicon { $name } has { $n } signs
-message-messages-delete-its-signs-first = delete its signs first with `chereme delete CORPUS sign:NAME/GLOSS`, or import its table again with --lexicon and the name of another
+message-messages-delete-its-signs-first = delete its signs first with `chereme delete CORPUS sign:NAME/GLOSS`, make it one with another with `chereme lexicon CORPUS unite NAME --into OTHER`, or import its table again with --lexicon
 message-messages-another-lexicon-called = another lexicon is called { $name }
 message-messages-no-lexicon-called = no lexicon is called { $name }
 message-messages-no-lexicon-called-did-you-mean = no lexicon is called { $name }; did you mean { $near }?

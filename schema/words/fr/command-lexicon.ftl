@@ -5,12 +5,16 @@ line-command-lexicon-removed = lexique supprimé : { $name }
 message-command-lexicon-nothing-changed = rien n’est à modifier
 message-command-lexicon-add-option = ajoutez --name, --language, --release, --terms, --citation ou --notes
 message-command-lexicon-no-lexicon = le corpus n’a pas de lexique : importez une table ou une notation avec --lexicon NOM
+line-command-lexicon-united = { $names } : un seul lexique avec { $name } désormais ; entrées venues : { $moved }, réunies : { $joined }
+line-command-lexicon-both-codings = les deux codages ont été gardés pour : { $list }
+line-command-lexicon-other-numbers = entrées qui ont un autre numéro : { $list }
+message-command-lexicon-bare-glosses = occurrences annotées par la seule glose de plusieurs entrées, dont la première a été prise : { $n }
 
 ## Help of commands and options.
 
 help-command-lexicon-list-change-link = Lister les lexiques d’un corpus, dire ce qu’ils sont et y lier des enregistrements
 help-command-lexicon-sign-is-entry = Un signe est une entrée d’un lexique : BOOK d’un lexique américain et BOOK d’un lexique britannique sont deux signes. Une table importée est un lexique du nom de son fichier, sauf si l’importation en nomme un. Si plusieurs lexiques ont une glose, écrivez lequel est voulu : sign:NGT/BOOK. Les requêtes connaissent lexicon=NGT, language=dse et file=ngt.csv.
-help-command-lexicon-glosses-looked-up = Les gloses des acteurs d’un enregistrement sont cherchées dans le lexique auquel l’enregistrement est lié ; celles qu’il n’a pas sont des signes d’aucun lexique. Les enregistrements d’un corpus qui a un seul lexique y sont liés ; s’il en a plusieurs, liez-les vous-même. Sans action, les lexiques sont listés. `--json` donne pour chacun "id", "name", "language", "version", "terms", "citation", "notes", "signs", "files", "recordings" et "tokens".
+help-command-lexicon-glosses-looked-up = Les gloses des acteurs d’un enregistrement sont cherchées dans le lexique auquel l’enregistrement est lié ; celles qu’il n’a pas sont des signes d’aucun lexique. Les enregistrements d’un corpus qui a un seul lexique y sont liés ; s’il en a plusieurs, liez-les vous-même. Sans action, les lexiques sont listés. `--json` donne pour chacun "id", "name", "language", "version", "terms", "citation", "notes", "signs", "homonyms", "files", "recordings", "tokens" et "guessed_tokens".
 help-command-lexicon-say-what-it-is = Dire ce qu’est un lexique : son nom, sa langue, sa version, ses conditions et comment le citer
 help-command-lexicon-look-up = Chercher désormais les gloses d’enregistrements dans un lexique
 help-command-lexicon-look-up-in-none = Ne chercher les gloses d’enregistrements dans aucun lexique
@@ -28,6 +32,11 @@ help-command-lexicon-compare-others = Le comparer aussi aux signes d’autres le
 help-command-lexicon-import-into = Le lexique auquel appartiennent les signes des tables et des notations ; sans lui, une table en est un à elle seule, et une notation appartient au seul lexique du corpus
 help-command-lexicon-import-language = La langue des signes de ce lexique, comme code ISO 639-3 tel que dse
 help-command-lexicon-pairs-of-query = Les occurrences dont les signes sont comparés, comme dans `chereme search` ; sans cela les formes de citation
+help-command-lexicon-entries-of-one-gloss = Plusieurs entrées peuvent avoir une même glose : BANK, BANK#2. Une table les distingue par une colonne qui identifie ses lignes, comme id, ou par une colonne « homonym » avec 1, 2 et ainsi de suite. La seule glose d’une annotation désigne la première ("guessed_tokens" les compte) ; écrivez BANK#2 pour la deuxième. sign:BANK#2 la nomme, gloss=BANK les trouve toutes.
+help-command-lexicon-unite = Réunir des lexiques : entrées, enregistrements et fichiers appartiennent à celui qui reste ; undo l’annule
+help-command-lexicon-same-entries = Deux entrées sont la même si leurs lignes ont le même identifiant, sinon par glose et numéro. Les deux codages sont gardés, comme deux formes d’une entrée, et les entrées qui diffèrent sont nommées. Des lexiques qui diffèrent par la langue, la version, les conditions ou la citation sont refusés.
+help-command-lexicon-that-go = Les lexiques qui disparaissent
+help-command-lexicon-that-stays = Le lexique qui reste
 
 ## Titles of columns.
 

@@ -244,3 +244,6 @@ line-importing-holds-settings-of-elan = réglages d’ELAN
 line-importing-holds-films = films
 line-importing-holds-templates-of-elan = modèles d’ELAN
 message-importing-rows-recognised-by-column = ses lignes ont été reconnues par la colonne { $quoted } : { $new } nouvelles, { $changed } modifiées, { $unchanged } inchangées, { $gone } disparues
+message-importing-entries-of-shared-glosses = entrées dont une autre entrée a aussi la glose : { $n } ({ $list }) ; les annotations de la seule glose désignent la première
+message-importing-bare-glosses = gloses de plusieurs entrées, dont la première a été prise : { $list }
+message-importing-name-second-entry = écrivez { $label } dans une annotation qui désigne la deuxième ; `chereme list CORPUS signs` liste les entrées

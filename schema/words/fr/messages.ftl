@@ -111,6 +111,7 @@ message-messages-no-format = { $what } n’est pas un format
 message-messages-table-asks-for-nothing = la table ne demande rien
 message-messages-counts-narrower-values-too-counts-value = { $condition } compte aussi des valeurs plus précises : { $values } ; == ne compte que la valeur
 message-messages-counts-values-equal-by-alias-too = { $condition } compte aussi des valeurs égales par un alias : { $values } ; { $field }== avec un de ces noms ne compte que lui
+message-messages-counts-values-that-are-one = { $condition } compte aussi les valeurs qui n’en font qu’une avec elle : { $values }
 message-messages-matched = { $condition } a trouvé : { $values }
 message-messages-no-coded-in-this-corpus-yet = { $condition } : aucune valeur de { $field } n’est encore codée dans ce corpus
 message-messages-finds-nothing-there = { $condition } ne trouve rien : { $why } ; il y a : { $names }
@@ -151,7 +152,7 @@ message-messages-pace-from-0-1-10-1 = une allure de 0,1 à 10 ; 1,6 est l’allu
 message-messages-no-duration-in-milliseconds = { $label } : { $text } n’est pas une durée en millisecondes
 message-messages-write-for-example-120-from-1 = écrivez par exemple a=120 : de 1 à 60000
 message-messages-lexicon-has-signs = le lexique { $name } a { $n } signes
-message-messages-delete-its-signs-first = supprimez d’abord ses signes avec `chereme delete CORPUS sign:NAME/GLOSS`, ou importez sa table de nouveau avec --lexicon et le nom d’un autre
+message-messages-delete-its-signs-first = supprimez d’abord ses signes avec `chereme delete CORPUS sign:NAME/GLOSS`, réunissez-le à un autre avec `chereme lexicon CORPUS unite NOM --into AUTRE`, ou importez sa table de nouveau avec --lexicon
 message-messages-another-lexicon-called = un autre lexique s’appelle { $name }
 message-messages-no-lexicon-called = aucun lexique ne s’appelle { $name }
 message-messages-no-lexicon-called-did-you-mean = aucun lexique ne s’appelle { $name } ; vouliez-vous dire { $near } ?

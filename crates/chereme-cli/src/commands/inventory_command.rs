@@ -1,4 +1,4 @@
-//! `chereme inventory`: adds values to an inventory, or merges two of them.
+//! `chereme inventory`: adds values to an inventory, merges two of them, or makes values of two inventories one.
 
 use std::path::PathBuf;
 
@@ -9,7 +9,7 @@ use clap::Subcommand;
 use crate::args::CommandLine;
 use crate::output::CommandOutput;
 
-/// Add values to an inventory, or merge two into one
+/// Add values to an inventory, merge two into one, or say which values of two inventories are one
 ///
 /// Each call is one operation that `chereme undo` takes back. `chereme list CORPUS inventories` names the
 /// inventories; `chereme export CORPUS inventory:NAME --to x.json` writes one, and `import` reads it again.
@@ -60,6 +60,23 @@ enum InventoryCommand {
         /// The value that stays
         into: String,
     },
+    /// Say which values of two inventories are one, list those that are, or propose some
+    ///
+    /// Each coding keeps its own word, and a search by either word finds both; counts, pickers and dictionaries show the
+    /// value once, as a rule by the second of the two words. Without values, those that are one are listed. Values are
+    /// proposed if they are equal in name, symbols, posture, place, direction, orientation or features, and are one only
+    /// when you say so. `--json` gives "equal_values" (groups, that which stands for the others first) or "proposals".
+    Equate {
+        /// Both values, as INVENTORY/VALUE; the second stands for the first
+        #[arg(num_args = 2, value_names = ["VALUE", "OTHER"])]
+        values: Vec<String>,
+        /// List values that seem to be one, with the reasons
+        #[arg(long, conflicts_with = "values")]
+        propose: bool,
+        /// Take this value out of those that it is one with
+        #[arg(long, value_name = "VALUE", conflicts_with_all = ["values", "propose"])]
+        remove: Option<String>,
+    },
 }
 
 fn parse_value_name(text: &str) -> Result<(String, String), String> {
@@ -96,6 +113,37 @@ pub(super) fn run(cli: &CommandLine, args: &InventoryArgs, output: &mut CommandO
                 &[&format_args!("{:?}", value), &inventory],
             )?;
             output.set_json_document(serde_json::json!({ "inventory": inventory, "value": value }))
+        }
+        InventoryCommand::Equate { propose: true, .. } => {
+            let proposals = corpus.propose_equal_values()?;
+            output.write_item_table(
+                &proposals,
+                &[
+                    ("value", &|row| row.value.to_string()),
+                    ("the same as", &|row| row.other.to_string()),
+                    ("equal in", &|row| row.reasons.join(", ")),
+                ],
+            )?;
+            output.write_note("`chereme inventory CORPUS equate VALUE OTHER` makes two of them one")?;
+            output.set_json_document(serde_json::json!({ "proposals": proposals }))
+        }
+        InventoryCommand::Equate { values, remove, .. } => {
+            if let [value, other] = values.as_slice() {
+                corpus.equate_values(value, other)?;
+            }
+            if let Some(value) = remove {
+                let parted = corpus.part_equal_value(value)?;
+                output.filled_line("{value} is one with no other value any more", &[&parted])?;
+            }
+            let equal_values = corpus.list_equal_values()?;
+            for group in equal_values.equal_groups() {
+                let texts: Vec<String> = group.iter().map(ToString::to_string).collect();
+                output.write_output_line(texts.join(" = "))?;
+            }
+            if equal_values.equal_groups().is_empty() {
+                output.write_note("no values of different inventories are one: `chereme inventory CORPUS equate --propose` finds some")?;
+            }
+            output.set_json_document(serde_json::json!({ "equal_values": equal_values }))
         }
         InventoryCommand::MergeValue { inventory, from, into } => {
             let merged = corpus.merge_values(inventory, from, into)?;

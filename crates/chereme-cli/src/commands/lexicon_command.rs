@@ -19,14 +19,19 @@ use crate::output::{CommandOutput, with_progress_bar};
 /// The glosses of a recording's tiers are looked up in the lexicon to which the recording is linked; those that it does
 /// not have are signs of no lexicon. The recordings of a corpus with one lexicon are linked to it; with several, link
 /// them yourself. Without an action the lexicons are listed. `--json` gives for each "id", "name", "language", "version",
-/// "terms", "citation", "notes", "signs", "files", "recordings" and "tokens".
+/// "terms", "citation", "notes", "signs", "homonyms", "files", "recordings", "tokens" and "guessed_tokens".
+///
+/// Several entries may have one gloss: BANK, BANK#2. A table keeps them apart by a column that identifies its rows, such as
+/// id, or by a column "homonym" with 1, 2 and so on. A bare gloss in an annotation means the first ("guessed_tokens" counts
+/// these); write BANK#2 for the second. sign:BANK#2 names it, gloss=BANK finds all. `annotate` and the window rename signs.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
   chereme lexicon mine.chereme
   chereme lexicon mine.chereme set ngt --name NGT --language dse --terms 'CC BY 4.0'
   chereme lexicon mine.chereme link NGT recording:3 recording:4
-  chereme lexicon mine.chereme link NGT --where signer=Ada")]
+  chereme lexicon mine.chereme link NGT --where signer=Ada
+  chereme lexicon mine.chereme unite 'NGT (2)' --into NGT")]
 pub(crate) struct LexiconArgs {
     /// The corpus
     corpus: PathBuf,
@@ -42,6 +47,19 @@ enum LexiconAction {
     Link(LexiconLinkArgs),
     /// Look up the glosses of recordings in no lexicon
     Unlink(LexiconRecordingArgs),
+    /// Make lexicons one: entries, recordings and files belong to the one that stays; undo takes it back
+    ///
+    /// Entries are the same if their rows have the same id, otherwise by gloss and number. Both codings are kept, as two
+    /// forms of one entry, and entries that differ are named. Lexicons that differ in language, version, terms or
+    /// citation are refused.
+    Unite {
+        /// The lexicons that go
+        #[arg(value_name = "LEXICON", required = true)]
+        lexicons: Vec<String>,
+        /// The lexicon that stays
+        #[arg(long, value_name = "LEXICON")]
+        into: String,
+    },
     /// Remove a lexicon that has no signs
     Remove {
         /// The lexicon, by name
@@ -151,6 +169,22 @@ pub(super) fn run(cli: &CommandLine, args: &LexiconArgs, output: &mut CommandOut
             link.recordings
                 .link_recordings(&mut corpus, Some(&link.lexicon), output)?;
         }
+        Some(LexiconAction::Unite { lexicons, into }) => {
+            let report = with_progress_bar(|progress| corpus.unite_lexicons(lexicons, into, progress))?;
+            output.filled_line(
+                "{names}: one lexicon with {name} now; entries that came: {moved}, joined: {joined}",
+                &[&report.united.join(", "), &report.into, &report.moved, &report.joined],
+            )?;
+            for (form, list) in [
+                ("both codings were kept of: {list}", &report.differing),
+                ("entries with another number: {list}", &report.renumbered),
+            ] {
+                if !list.is_empty() {
+                    output.filled_line(form, &[&list.join(", ")])?;
+                }
+            }
+            return output.set_json_document(report);
+        }
         Some(LexiconAction::Remove { lexicon }) => {
             let removed = corpus.remove_lexicon(lexicon)?;
             output.filled_line("lexicon removed: {name}", &[&removed.name])?;
@@ -201,10 +235,18 @@ fn print_lexicons(lexicons: &[LexiconContents], output: &mut CommandOutput) -> R
             ("language", &|row| row.lexicon.language.clone().unwrap_or_default()),
             ("version", &|row| row.lexicon.version.clone().unwrap_or_default()),
             ("signs", &|row| row.signs.to_string()),
+            ("homonyms", &|row| row.homonyms.to_string()),
             ("tokens", &|row| row.tokens.to_string()),
             ("recordings", &|row| row.recordings.to_string()),
             ("terms", &|row| row.lexicon.terms.clone().unwrap_or_default()),
             ("files", &|row| shown_file_names(&row.files)),
         ],
-    )
+    )?;
+    let guessed: i64 = lexicons.iter().map(|row| row.guessed_tokens).sum();
+    if guessed > 0 {
+        output.write_warning(&format!(
+            "tokens annotated with the bare gloss of several entries, of which the first was taken: {guessed}"
+        ))?;
+    }
+    Ok(())
 }

@@ -55,7 +55,7 @@ pub(crate) fn replace_gloss_values(connection: &Connection, sign: i64, old: &str
         .prepare_cached(
             "UPDATE annotation SET value = ?2, origin = 'human', confidence = NULL,
                  source = json_set(source, '$.entry', NULL)
-             WHERE state = 'value' AND trim(value) = ?1
+             WHERE state = 'value' AND trim(value) IN (?1, ?1 || '#1')
                AND id IN (SELECT annotation_id FROM token WHERE sign_id = ?3)",
         )?
         .execute(params![old, new, sign])?;
@@ -128,14 +128,19 @@ pub(crate) fn recordings_of_signer(connection: &Connection, signer: i64) -> Corp
     Ok(ids)
 }
 
-/// Replaces a sign's gloss and notes.
-pub(crate) fn update_sign(connection: &Connection, sign: i64, gloss: &str, notes: Option<&str>) -> CorpusResult<()> {
+/// Replaces a sign's gloss with the number of the entry, and its notes.
+pub(crate) fn update_sign(
+    connection: &Connection,
+    sign: i64,
+    entry: (&str, i64),
+    notes: Option<&str>,
+) -> CorpusResult<()> {
     connection
         .prepare_cached(
-            "UPDATE sign SET gloss = ?2, notes = ?3
-             WHERE id = ?1 AND (gloss <> ?2 OR notes IS NOT ?3)",
+            "UPDATE sign SET gloss = ?2, homonym = nullif(?3, 1), notes = ?4
+             WHERE id = ?1 AND (gloss <> ?2 OR ifnull(homonym, 1) <> ?3 OR notes IS NOT ?4)",
         )?
-        .execute(params![sign, gloss, notes])?;
+        .execute(params![sign, entry.0, entry.1, notes])?;
     Ok(())
 }
 

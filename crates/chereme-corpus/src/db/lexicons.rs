@@ -126,6 +126,24 @@ pub(crate) fn delete_lexicon(connection: &Connection, id: i64) -> CorpusResult<(
     Ok(())
 }
 
+/// Deletes a lexicon whose signs belong to another one already; recordings and files are linked to that one.
+pub(crate) fn replace_lexicon(connection: &Connection, gone: i64, kept: i64) -> CorpusResult<()> {
+    for sql in [
+        "UPDATE recording SET lexicon_id = ?2 WHERE lexicon_id = ?1",
+        "UPDATE source_file SET lexicon_id = ?2 WHERE lexicon_id = ?1",
+    ] {
+        connection.prepare_cached(sql)?.execute([gone, kept])?;
+    }
+    delete_lexicon(connection, gone)
+}
+
+/// Returns the recordings that are linked to a lexicon.
+pub(crate) fn recordings_of_lexicon(connection: &Connection, lexicon: i64) -> CorpusResult<Vec<i64>> {
+    let mut statement = connection.prepare_cached("SELECT id FROM recording WHERE lexicon_id = ?1 ORDER BY id")?;
+    let recordings = statement.query_map([lexicon], |row| row.get(0))?;
+    Ok(recordings.collect::<rusqlite::Result<_>>()?)
+}
+
 /// Returns the lexicon of a corpus that has only one.
 pub(crate) fn find_sole_lexicon(connection: &Connection) -> CorpusResult<Option<i64>> {
     // Of several lexicons none is more likely than another, which SQL says as NULL.
@@ -202,34 +220,60 @@ pub struct LexiconContents {
     pub lexicon: LexiconRow,
     /// The number of its entries.
     pub signs: i64,
+    /// The number of entries whose gloss another entry had first.
+    pub homonyms: i64,
     /// The names of the files that it was imported from.
     pub files: Vec<String>,
     /// The number of recordings whose glosses are looked up in it.
     pub recordings: i64,
     /// The number of tokens of its entries.
     pub tokens: i64,
+    /// The number of tokens that belong to the first entry of their gloss since their annotation names no other.
+    pub guessed_tokens: i64,
+}
+
+/// The tokens `t` of signs `s` and annotations `a` whose annotation has the bare gloss of several entries.
+const HAS_BARE_GLOSS_SQL: &str =
+    "FROM token t JOIN sign s ON s.id = t.sign_id JOIN annotation a ON a.id = t.annotation_id
+    WHERE trim(a.value) = s.gloss
+      AND EXISTS (SELECT 1 FROM sign o WHERE o.gloss = s.gloss AND o.lexicon_id IS s.lexicon_id AND o.id <> s.id)";
+
+/// Returns the glosses of a recording that several entries have and whose annotations do not say which is meant.
+pub(crate) fn bare_glosses_of_recording(connection: &Connection, recording: i64) -> CorpusResult<Vec<String>> {
+    let sql = format!("SELECT DISTINCT s.gloss {HAS_BARE_GLOSS_SQL} AND t.recording_id = ?1 ORDER BY 1");
+    let mut statement = connection.prepare_cached(&sql)?;
+    let glosses = statement.query_map([recording], |row| row.get(0))?;
+    Ok(glosses.collect::<rusqlite::Result<_>>()?)
 }
 
 /// Returns what each lexicon holds, by name.
 pub(crate) fn load_lexicon_contents(connection: &Connection) -> CorpusResult<Vec<LexiconContents>> {
-    let mut counted = connection.prepare_cached(
-        "SELECT (SELECT count(*) FROM sign WHERE lexicon_id = ?1),
+    let mut counted = connection.prepare_cached(&format!(
+        "SELECT (SELECT count(*) FROM sign WHERE lexicon_id = ?1), (SELECT count(homonym) FROM sign WHERE lexicon_id = ?1),
                 (SELECT count(*) FROM recording WHERE lexicon_id = ?1),
-                (SELECT count(*) FROM token t JOIN sign s ON s.id = t.sign_id WHERE s.lexicon_id = ?1)",
-    )?;
+                (SELECT count(*) FROM token t JOIN sign s ON s.id = t.sign_id WHERE s.lexicon_id = ?1),
+                (SELECT count(*) {HAS_BARE_GLOSS_SQL} AND s.lexicon_id = ?1)"
+    ))?;
     let mut named =
         connection.prepare_cached("SELECT DISTINCT name FROM source_file WHERE lexicon_id = ?1 ORDER BY name")?;
     let mut contents = Vec::new();
     for lexicon in load_lexicon_rows(connection)? {
-        let counts: [i64; 3] = counted.query_row([lexicon.id], |row| Ok([row.get(0)?, row.get(1)?, row.get(2)?]))?;
-        let [signs, recordings, tokens] = counts;
+        let counts = counted.query_row([lexicon.id], |row| {
+            let counts: rusqlite::Result<Vec<i64>> = (0..5).map(|column| row.get(column)).collect();
+            counts
+        })?;
+        let [signs, homonyms, recordings, tokens, guessed_tokens] = counts[..] else {
+            continue;
+        };
         let files = named.query_map([lexicon.id], |row| row.get(0))?;
         contents.push(LexiconContents {
             files: files.collect::<rusqlite::Result<_>>()?,
             lexicon,
             signs,
+            homonyms,
             recordings,
             tokens,
+            guessed_tokens,
         });
     }
     Ok(contents)

@@ -31,7 +31,7 @@ pub(crate) struct NotationRow {
 }
 
 const SELECT_NOTATION_SQL: &str = "
-    SELECT n.id, n.token_id, n.source_file_id, f.name, n.line, n.system, n.text, n.document, s.gloss
+    SELECT n.id, n.token_id, n.source_file_id, f.name, n.line, n.system, n.text, n.document, s.label
     FROM notation n JOIN token t ON t.id = n.token_id JOIN sign s ON s.id = t.sign_id
     LEFT JOIN source_file f ON f.id = n.source_file_id";
 

@@ -143,7 +143,7 @@ pub(crate) fn body_of(connection: &Connection, recording: i64, skeleton: i64) ->
 pub(crate) fn of_lone_tokens(connection: &Connection, tokens: &[i64]) -> CorpusResult<Vec<(i64, String, String)>> {
     // Of several tokens in one recording, the recipe does not say which is its own.
     let mut statement = connection.prepare_cached(
-        "SELECT t.id, s.gloss, r.document FROM token t
+        "SELECT t.id, s.label, r.document FROM token t
          JOIN sign s ON s.id = t.sign_id JOIN recipe r ON r.recording_id = t.recording_id
          WHERE t.id IN (SELECT value FROM json_each(?1)) AND NOT EXISTS
              (SELECT 1 FROM token other WHERE other.recording_id = t.recording_id AND other.id <> t.id)",

@@ -38,8 +38,11 @@ pub struct TokenRow {
     pub id: i64,
     /// The sign's row.
     pub sign_id: i64,
-    /// The sign's gloss.
+    /// The sign's gloss; that of a further entry of one gloss has its number behind it: `BANK#2`.
     pub gloss: String,
+    /// The number of a further entry of one gloss; the first or only one has none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub homonym: Option<i64>,
     /// The name of the lexicon to which the sign belongs, if it belongs to one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lexicon: Option<String>,
@@ -61,6 +64,14 @@ pub struct TokenRow {
     pub citation: bool,
     /// Properties from its file that have no column, as JSON.
     pub source: Option<String>,
+}
+
+impl TokenRow {
+    /// Returns the sign's gloss without the number of a further entry.
+    pub(crate) fn plain_gloss(&self) -> &str {
+        let numbered = self.homonym.and_then(|_| split_entry_label(&self.gloss));
+        numbered.map_or(&*self.gloss, |(gloss, _)| gloss)
+    }
 }
 
 /// The value of a token's component.
@@ -110,7 +121,7 @@ pub(crate) fn sign_of_annotation(connection: &Connection, lexicon: Option<i64>, 
     }
     match find_sign(connection, None, gloss)? {
         Some(id) => Ok(id),
-        None => insert_sign(connection, None, gloss),
+        None => insert_sign(connection, None, gloss, None),
     }
 }
 
@@ -129,15 +140,31 @@ pub(crate) struct EnteredSign {
 /// Tokens that were annotated before the lexicon had the entry become its tokens, as far as their recordings are linked
 /// to the lexicon.
 pub(crate) fn enter_sign(connection: &Connection, lexicon: Option<i64>, gloss: &str) -> CorpusResult<EnteredSign> {
-    if let Some(id) = find_sign(connection, lexicon, gloss)? {
+    match find_sign(connection, lexicon, gloss)? {
+        Some(id) => Ok(EnteredSign { id, is_new: false }),
+        None => enter_homonym(connection, lexicon, gloss, 1),
+    }
+}
+
+/// Returns the entry of a lexicon with this gloss and number as [`enter_sign()`] does.
+pub(crate) fn enter_homonym(
+    connection: &Connection,
+    lexicon: Option<i64>,
+    gloss: &str,
+    number: i64,
+) -> CorpusResult<EnteredSign> {
+    if let Some(id) = find_entry(connection, lexicon, gloss, Some(number))? {
         return Ok(EnteredSign { id, is_new: false });
     }
-    let loose = match lexicon {
-        Some(_) => find_sign(connection, None, gloss)?,
-        None => None,
+    let homonym = Some(number).filter(|number| *number > 1);
+    let loose = match (lexicon, homonym) {
+        (None, _) => None,
+        (_, None) => find_sign(connection, None, gloss)?,
+        // Annotations may have named the entry before the lexicon had it.
+        (_, Some(number)) => find_sign(connection, None, &format!("{gloss}#{number}"))?,
     };
     let Some((lexicon, loose)) = lexicon.zip(loose) else {
-        let id = insert_sign(connection, lexicon, gloss)?;
+        let id = insert_sign(connection, lexicon, gloss, homonym)?;
         return Ok(EnteredSign { id, is_new: true });
     };
     // A token without a recording, or without a linked one, belongs to a lexicon if that is the only one.
@@ -151,14 +178,16 @@ pub(crate) fn enter_sign(connection: &Connection, lexicon: Option<i64>, gloss: &
     // The sign keeps its number and its uid if all of its tokens go with it.
     if !others {
         connection
-            .prepare_cached("UPDATE sign SET lexicon_id = ?2 WHERE id = ?1")?
-            .execute([loose, lexicon])?;
+            .prepare_cached(
+                "UPDATE sign SET lexicon_id = ?2, homonym = ?3, gloss = iif(?3 IS NULL, gloss, ?4) WHERE id = ?1",
+            )?
+            .execute(params![loose, lexicon, homonym, gloss])?;
         return Ok(EnteredSign {
             id: loose,
             is_new: false,
         });
     }
-    let id = insert_sign(connection, Some(lexicon), gloss)?;
+    let id = insert_sign(connection, Some(lexicon), gloss, homonym)?;
     let moved = connection
         .prepare_cached(&format!(
             "UPDATE token AS t SET sign_id = ?3 WHERE t.sign_id = ?1 AND {is_linked}"
@@ -172,27 +201,60 @@ pub(crate) fn enter_sign(connection: &Connection, lexicon: Option<i64>, gloss: &
     Ok(EnteredSign { id, is_new: true })
 }
 
-fn insert_sign(connection: &Connection, lexicon: Option<i64>, gloss: &str) -> CorpusResult<i64> {
+fn insert_sign(connection: &Connection, lexicon: Option<i64>, gloss: &str, homonym: Option<i64>) -> CorpusResult<i64> {
     let place = || format!("sign {:?}", gloss.chars().take(40).collect::<String>());
     stored_tiers::check_text(place, gloss)?;
     connection
-        .prepare_cached("INSERT INTO sign (lexicon_id, gloss) VALUES (?1, ?2)")?
-        .execute(params![lexicon, gloss])?;
+        .prepare_cached("INSERT INTO sign (lexicon_id, gloss, homonym) VALUES (?1, ?2, ?3)")?
+        .execute(params![lexicon, gloss, homonym])?;
     Ok(connection.last_insert_rowid())
 }
 
 /// Returns the entry of a lexicon, or without one the sign that belongs to none, with exactly this gloss, or with a gloss
-/// that differs only by the characters in which a program stores accents.
+/// that differs only by the characters in which a program stores accents. Of several entries of one gloss it is the first,
+/// unless the number of another follows: `BANK#2`.
 pub(crate) fn find_sign(connection: &Connection, lexicon: Option<i64>, gloss: &str) -> CorpusResult<Option<i64>> {
-    let mut statement =
-        connection.prepare_cached("SELECT id FROM sign WHERE gloss = ?1 AND ifnull(lexicon_id, 0) = ?2")?;
+    if let Some(id) = find_entry(connection, lexicon, gloss, None)? {
+        return Ok(Some(id));
+    }
+    match split_entry_label(gloss) {
+        Some((gloss, number)) => find_entry(connection, lexicon, gloss, Some(number)),
+        None => Ok(None),
+    }
+}
+
+/// Returns the entry of a lexicon with this gloss and number, which is 1 for the first or only one; without a number the
+/// first that there is.
+pub(crate) fn find_entry(
+    connection: &Connection,
+    lexicon: Option<i64>,
+    gloss: &str,
+    number: Option<i64>,
+) -> CorpusResult<Option<i64>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT id FROM sign WHERE gloss = ?1 AND ifnull(lexicon_id, 0) = ?2 AND (?3 IS NULL OR ifnull(homonym, 1) = ?3)
+         ORDER BY ifnull(homonym, 1) LIMIT 1",
+    )?;
     for spelling in accent_spellings(gloss) {
-        let key = params![spelling, lexicon.unwrap_or_default()];
+        let key = params![spelling, lexicon.unwrap_or_default(), number];
         if let Some(id) = statement.query_row(key, |row| row.get(0)).optional()? {
             return Ok(Some(id));
         }
     }
     Ok(None)
+}
+
+/// Returns the gloss and the number of an entry that a text names as `BANK#2`.
+pub(crate) fn split_entry_label(label: &str) -> Option<(&str, i64)> {
+    let (gloss, number) = label.rsplit_once('#')?;
+    let number = number.parse().ok().filter(|number| *number > 0)?;
+    (!gloss.is_empty()).then_some((gloss, number))
+}
+
+/// Returns the gloss of a sign, with the number of a further entry behind it.
+pub(crate) fn sign_label(connection: &Connection, sign: i64) -> CorpusResult<String> {
+    let sql = "SELECT label FROM sign WHERE id = ?1";
+    Ok(connection.prepare_cached(sql)?.query_row([sign], |row| row.get(0))?)
 }
 
 /// A sign by the lexicon that it belongs to.
@@ -202,24 +264,30 @@ pub(crate) struct SignByLexicon {
     pub id: i64,
     /// The name of its lexicon, if it belongs to one.
     pub lexicon: Option<String>,
+    /// Its number among the entries of the gloss.
+    pub number: i64,
 }
 
-/// Returns the signs of all lexicons with this gloss, spelled as for [`find_sign()`].
+/// Returns the signs of all lexicons with this gloss, or with the number behind it, spelled as for [`find_sign()`].
 pub(crate) fn find_signs_of_gloss(connection: &Connection, gloss: &str) -> CorpusResult<Vec<SignByLexicon>> {
     let mut statement = connection.prepare_cached(
-        "SELECT s.id, l.name FROM sign s LEFT JOIN lexicon l ON l.id = s.lexicon_id WHERE s.gloss = ?1
-         ORDER BY l.name IS NULL, l.name",
+        "SELECT s.id, l.name, ifnull(s.homonym, 1) FROM sign s LEFT JOIN lexicon l ON l.id = s.lexicon_id
+         WHERE s.gloss = ?1 AND (?2 IS NULL OR ifnull(s.homonym, 1) = ?2) ORDER BY l.name IS NULL, l.name, 3",
     )?;
-    for spelling in accent_spellings(gloss) {
-        let rows = statement.query_map([spelling], |row| {
-            Ok(SignByLexicon {
-                id: row.get(0)?,
-                lexicon: row.get(1)?,
-            })
-        })?;
-        let signs = rows.collect::<rusqlite::Result<Vec<_>>>()?;
-        if !signs.is_empty() {
-            return Ok(signs);
+    let numbered = split_entry_label(gloss).map(|(gloss, number)| (gloss, Some(number)));
+    for (gloss, number) in [(gloss, None)].into_iter().chain(numbered) {
+        for spelling in accent_spellings(gloss) {
+            let rows = statement.query_map(params![spelling, number], |row| {
+                Ok(SignByLexicon {
+                    id: row.get(0)?,
+                    lexicon: row.get(1)?,
+                    number: row.get(2)?,
+                })
+            })?;
+            let signs = rows.collect::<rusqlite::Result<Vec<_>>>()?;
+            if !signs.is_empty() {
+                return Ok(signs);
+            }
         }
     }
     Ok(Vec::new())
@@ -283,6 +351,55 @@ pub(crate) fn glosses_of_lexicon(connection: &Connection, lexicon: i64) -> Corpu
         .query_map([lexicon], |row| row.get(0))?
         .collect::<rusqlite::Result<_>>()?;
     Ok(glosses)
+}
+
+/// Returns the signs of a lexicon by gloss and number.
+pub(crate) fn entries_of_lexicon(connection: &Connection, lexicon: i64) -> CorpusResult<Vec<i64>> {
+    let sql = "SELECT id FROM sign WHERE lexicon_id = ?1 ORDER BY gloss, homonym";
+    let mut statement = connection.prepare_cached(sql)?;
+    let signs = statement.query_map([lexicon], |row| row.get(0))?;
+    Ok(signs.collect::<rusqlite::Result<_>>()?)
+}
+
+/// Returns the entries of a lexicon with a gloss, or without one the signs of none, each with its number.
+pub(crate) fn entries_of_gloss(
+    connection: &Connection,
+    lexicon: Option<i64>,
+    gloss: &str,
+) -> CorpusResult<Vec<(i64, i64)>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT id, ifnull(homonym, 1) FROM sign WHERE gloss = ?1 AND ifnull(lexicon_id, 0) = ?2 ORDER BY 2",
+    )?;
+    let mut entries = Vec::new();
+    for spelling in accent_spellings(gloss) {
+        let key = params![spelling, lexicon.unwrap_or_default()];
+        let rows = statement.query_map(key, |row| Ok((row.get(0)?, row.get(1)?)))?;
+        entries.extend(rows.collect::<rusqlite::Result<Vec<_>>>()?);
+    }
+    Ok(entries)
+}
+
+/// Returns the number of a sign among the entries of its gloss.
+pub(crate) fn entry_number(connection: &Connection, sign: i64) -> CorpusResult<i64> {
+    let sql = "SELECT ifnull(homonym, 1) FROM sign WHERE id = ?1";
+    Ok(connection.prepare_cached(sql)?.query_row([sign], |row| row.get(0))?)
+}
+
+/// Makes a sign an entry of a lexicon under a number that is free there.
+pub(crate) fn move_entry(connection: &Connection, sign: i64, lexicon: i64, number: i64) -> CorpusResult<()> {
+    connection
+        .prepare_cached("UPDATE sign SET lexicon_id = ?2, homonym = nullif(?3, 1) WHERE id = ?1")?
+        .execute([sign, lexicon, number])?;
+    Ok(())
+}
+
+/// Gives the tokens of a sign to another one, whose citation form stays as it is.
+pub(crate) fn move_tokens(connection: &Connection, from: i64, into: i64) -> CorpusResult<()> {
+    let is_citation = has_citation(connection, into)?;
+    connection
+        .prepare_cached("UPDATE token SET sign_id = ?2, citation = citation AND NOT ?3 WHERE sign_id = ?1")?
+        .execute(params![from, into, is_citation])?;
+    Ok(())
 }
 
 /// Returns the translations of a sign as language and text.
@@ -466,8 +583,8 @@ fn value_row(row: &Row<'_>) -> rusqlite::Result<TokenValueRow> {
 }
 
 const SELECT_TOKEN_SQL: &str = "
-    SELECT t.id, t.sign_id, s.gloss, t.recording_id, r.name, t.annotation_id, t.start_us, t.end_us,
-           t.hand, t.origin, t.citation, t.source, l.name
+    SELECT t.id, t.sign_id, s.label, t.recording_id, r.name, t.annotation_id, t.start_us, t.end_us,
+           t.hand, t.origin, t.citation, t.source, l.name, s.homonym
     FROM token t JOIN sign s ON s.id = t.sign_id LEFT JOIN recording r ON r.id = t.recording_id
     LEFT JOIN lexicon l ON l.id = s.lexicon_id";
 
@@ -486,6 +603,7 @@ fn token_row(row: &Row<'_>) -> rusqlite::Result<TokenRow> {
         citation: row.get(10)?,
         source: row.get(11)?,
         lexicon: row.get(12)?,
+        homonym: row.get(13)?,
     })
 }
 

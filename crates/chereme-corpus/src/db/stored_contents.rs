@@ -101,14 +101,14 @@ fn parse_track_kinds(list: Option<String>) -> Vec<TrackKind> {
 /// Returns all signs by gloss.
 pub(crate) fn load_sign_glances(connection: &Connection) -> CorpusResult<Vec<SignGlance>> {
     let mut statement = connection.prepare_cached(
-        "SELECT s.id, s.gloss, s.notes, (SELECT count(*) FROM token t WHERE t.sign_id = s.id),
+        "SELECT s.id, s.label, s.notes, (SELECT count(*) FROM token t WHERE t.sign_id = s.id),
                 c.id, c.recording_id, c.start_us, c.end_us,
                 EXISTS (SELECT 1 FROM notation n WHERE n.token_id = c.id),
                 (SELECT name FROM lexicon l WHERE l.id = s.lexicon_id)
          FROM sign s LEFT JOIN token c ON c.id =
                 (SELECT t.id FROM token t WHERE t.sign_id = s.id AND t.citation = 1
                  ORDER BY t.recording_id IS NULL, t.id LIMIT 1)
-         ORDER BY s.gloss, s.id",
+         ORDER BY s.gloss, s.homonym, s.id",
     )?;
     let signs = statement
         .query_map([], |row| {

@@ -366,7 +366,7 @@ pub(crate) fn name_of(connection: &Connection, table: &str, id: i64) -> CorpusRe
         "tier" => "SELECT name FROM tier WHERE id = ?1",
         "signer" => "SELECT name FROM signer WHERE id = ?1",
         "lexicon" => "SELECT name FROM lexicon WHERE id = ?1",
-        "sign" => "SELECT gloss FROM sign WHERE id = ?1",
+        "sign" => "SELECT label FROM sign WHERE id = ?1",
         "inventory" => "SELECT key FROM inventory WHERE id = ?1",
         "annotation" => "SELECT value FROM annotation WHERE id = ?1",
         _ => return Ok(None),

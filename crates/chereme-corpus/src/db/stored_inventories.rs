@@ -83,6 +83,44 @@ pub(crate) fn store_value(
     Ok(())
 }
 
+/// Returns inventory, value and the other value that it is the same as, of each value that is one with others.
+pub(crate) fn load_joined_values(connection: &Connection) -> CorpusResult<Vec<[Option<String>; 3]>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT i.key, v.key, v.same_as FROM inventory_value v JOIN inventory i ON i.id = v.inventory_id
+         WHERE v.same_as IS NOT NULL
+            OR i.key || '/' || v.key IN (SELECT same_as FROM inventory_value WHERE same_as IS NOT NULL)
+         ORDER BY i.id, v.position, v.id",
+    )?;
+    let rows = statement.query_map([], |row| Ok([row.get(0)?, row.get(1)?, row.get(2)?]))?;
+    Ok(rows.collect::<rusqlite::Result<_>>()?)
+}
+
+/// Says that a value, by inventory and key, is the same as another one, written `INVENTORY/VALUE`, or as none.
+pub(crate) fn set_same_as(connection: &Connection, value: [&str; 2], same_as: Option<&str>) -> CorpusResult<()> {
+    connection
+        .prepare_cached(
+            "UPDATE inventory_value SET same_as = ?3 WHERE key = ?2 AND same_as IS NOT ?3
+                AND inventory_id = (SELECT id FROM inventory WHERE key = ?1)",
+        )?
+        .execute(params![value[0], value[1], same_as])?;
+    Ok(())
+}
+
+/// Makes another value of an inventory one with those that a value is one with.
+pub(crate) fn pass_same_as(connection: &Connection, inventory: &str, [from, into]: [&str; 2]) -> CorpusResult<()> {
+    connection
+        .prepare_cached("UPDATE inventory_value SET same_as = ?1 || '/' || ?3 WHERE same_as = ?1 || '/' || ?2")?
+        .execute([inventory, from, into])?;
+    connection
+        .prepare_cached(
+            "UPDATE inventory_value AS v SET same_as = o.same_as FROM inventory_value o
+             WHERE o.inventory_id = v.inventory_id AND o.key = ?2 AND o.same_as IS NOT NULL AND v.key = ?3
+                AND v.same_as IS NULL AND v.inventory_id = (SELECT id FROM inventory WHERE key = ?1)",
+        )?
+        .execute([inventory, from, into])?;
+    Ok(())
+}
+
 /// Deletes a value of an inventory.
 pub(crate) fn delete_value(connection: &Connection, inventory: i64, key: &str) -> CorpusResult<()> {
     connection

@@ -139,7 +139,7 @@ pub(crate) const TRACKS_LIST: ListTable = ListTable {
 pub(crate) const SIGNS_LIST: ListTable = ListTable {
     columns: &[
         number_list_column("id", "s.id"),
-        named_row_column("gloss", "s.gloss", "s.id"),
+        named_row_column("gloss", "s.label", "s.id"),
         number_list_column("tokens", "(SELECT count(*) FROM token t WHERE t.sign_id = s.id)"),
         number_list_column(
             "citation",
@@ -169,16 +169,17 @@ pub(crate) const SIGNS_LIST: ListTable = ListTable {
               JOIN token t ON t.id = a.token_id WHERE t.sign_id = s.id)",
         ),
         text_list_column("lexicon", "l.name"),
+        number_list_column("homonym", "s.homonym"),
         text_list_column("notes", "s.notes"),
     ],
     from: "sign s LEFT JOIN lexicon l ON l.id = s.lexicon_id",
-    order: "s.gloss",
+    order: "s.gloss, s.homonym",
 };
 
 pub(crate) const TOKENS_LIST: ListTable = ListTable {
     columns: &[
         number_list_column("id", "t.id"),
-        named_row_column("gloss", "s.gloss", "s.id"),
+        named_row_column("gloss", "s.label", "s.id"),
         named_row_column("recording", "r.name", "r.id"),
         number_list_column("start_us", "t.start_us"),
         number_list_column("end_us", "t.end_us"),

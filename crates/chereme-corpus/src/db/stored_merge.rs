@@ -328,7 +328,7 @@ pub(crate) fn find_namesake_row(connection: &Connection, table: &str, image: &Ro
         "skeleton" => &["hash"],
         "inventory" => &["key"],
         "inventory_value" => &["inventory_id", "key"],
-        "sign" => &["lexicon_id", "gloss"],
+        "sign" => &["lexicon_id", "gloss", "homonym"],
         "tier" | "track" => &["recording_id", "name"],
         "attribute" => &["token_id", "name"],
         "person_alias" => &["name"],

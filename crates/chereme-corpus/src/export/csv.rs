@@ -51,7 +51,7 @@ impl TableForm {
     }
 }
 
-const FIXED_TOKEN_COLUMNS: [&str; 10] = [
+const FIXED_TOKEN_COLUMNS: [&str; 11] = [
     "token",
     "gloss",
     "lexicon",
@@ -62,6 +62,7 @@ const FIXED_TOKEN_COLUMNS: [&str; 10] = [
     "signer",
     "hand",
     "citation",
+    "homonym",
 ];
 
 /// Writes one row for each token, with all its components and its own attributes.
@@ -284,7 +285,7 @@ fn translation_column_title(language: &str) -> String {
 fn fixed(token: &TokenRow, signer: Option<&str>) -> Vec<String> {
     vec![
         token.id.to_string(),
-        token.gloss.clone(),
+        token.plain_gloss().to_owned(),
         token.lexicon.clone().unwrap_or_default(),
         token.recording.clone().unwrap_or_default(),
         micros_as_seconds_text(token.start_us),
@@ -293,6 +294,7 @@ fn fixed(token: &TokenRow, signer: Option<&str>) -> Vec<String> {
         signer.unwrap_or_default().to_owned(),
         token.hand.map_or("", AnnotatedHands::annotated_hands_name).to_owned(),
         if token.citation { "yes" } else { "no" }.to_owned(),
+        token.homonym.map(|number| number.to_string()).unwrap_or_default(),
     ]
 }
 

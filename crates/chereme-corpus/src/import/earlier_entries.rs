@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_formats::lexicon::{LexiconColumnMeaning, LexiconEntry, SignLexicon};
 use chereme_sign::ErrorRemedy;
-use chereme_sign::text::{compose_accents, fold_text};
+use chereme_sign::text::compose_accents;
 use serde_json::{Map, Value};
 
 use super::ImportJob;
@@ -12,6 +12,7 @@ use super::lexicon::SHOWN_NAMES;
 use crate::db::signs::{self, TokenRow};
 use crate::error::CorpusResult;
 use crate::forms::row_has_cells;
+use crate::lexicon::entry_match::is_row_id_title;
 use crate::report_finding::ReportFinding;
 
 /// The entries of earlier imports of the file that no row has taken yet.
@@ -41,33 +42,16 @@ struct RowIdCounts {
     unchanged: usize,
 }
 
-/// Titles of columns that may identify rows.
-const ROW_ID_TITLES: [&str; 12] = [
-    "id",
-    "row id",
-    "sign id",
-    "signbank id",
-    "entry id",
-    "gloss id",
-    "lexeme id",
-    "uid",
-    "uuid",
-    "identifier",
-    "identifiant",
-    "signbank",
-];
-
 impl RowIdColumn {
     /// Returns the column whose title says that it identifies rows, and whose cells do. A column that only numbers the rows
     /// does not: a row that is inserted gives all rows below it another number.
     fn find_row_id_column(table: &SignLexicon) -> Option<Self> {
         let column = table.columns.iter().position(|column| {
-            let title = fold_text(&column.title.replace(['_', '-'], " "));
             let is_other = matches!(
                 column.meaning,
                 LexiconColumnMeaning::Attribute | LexiconColumnMeaning::Note
             );
-            is_other && ROW_ID_TITLES.contains(&title.trim())
+            is_other && is_row_id_title(&column.title)
         })?;
         let cell = |entry: &LexiconEntry| entry.cells.get(column).map(|cell| cell.trim().to_owned());
         let ids: Vec<String> = table.entries.iter().filter_map(cell).collect();
@@ -102,12 +86,14 @@ impl EarlierEntries {
         is_known: bool,
         table: &SignLexicon,
     ) -> CorpusResult<Self> {
-        let mut all = Self::default();
+        let mut all = Self {
+            row_id: RowIdColumn::find_row_id_column(table),
+            ..Self::default()
+        };
         let mut namesakes = job.places.files_of_same_name(&job.file_name);
         if !is_known && !namesakes.any(|row| row.path.is_none()) {
             return Ok(all);
         }
-        all.row_id = RowIdColumn::find_row_id_column(table);
         for token in signs::lexicon_entries(job.connection)? {
             let text = token.source.as_deref().unwrap_or_default();
             // An entry that was not made from a table has no row to compare with.
@@ -123,7 +109,7 @@ impl EarlierEntries {
             if let Value::Object(cells) = origin["cells"].take()
                 && same
             {
-                let gloss = compose_accents(&token.gloss).into_owned();
+                let gloss = compose_accents(token.plain_gloss()).into_owned();
                 if let Some(row_id) = &mut all.row_id
                     && let Some(id) = cells.get(&row_id.title).and_then(Value::as_str)
                 {
@@ -154,7 +140,7 @@ impl EarlierEntries {
                 && let Some(at) = entries.iter().position(has_id)
             {
                 let entry = entries.remove(at);
-                let is_same_gloss = compose_accents(&entry.token.gloss) == compose_accents(&row.gloss);
+                let is_same_gloss = compose_accents(entry.token.plain_gloss()) == compose_accents(&row.gloss);
                 match is_same_gloss && row_has_cells(table, row, &entry.cells) {
                     true => row_id.counts.unchanged += 1,
                     false => row_id.counts.changed += 1,
@@ -182,6 +168,17 @@ impl EarlierEntries {
         let entries = gloss_entries?;
         let at = entries.iter().position(is_free)?;
         Some(entries.remove(at).token)
+    }
+
+    /// Returns whether a column identifies the rows of the table.
+    pub(super) fn has_row_ids(&self) -> bool {
+        self.row_id.is_some()
+    }
+
+    /// Returns whether a sign has an entry that no row has taken yet.
+    pub(super) fn holds_sign(&self, gloss: &str, sign: i64) -> bool {
+        let entries = self.by_gloss.get(&*compose_accents(gloss));
+        entries.is_some_and(|entries| entries.iter().any(|entry| entry.token.sign_id == sign))
     }
 
     /// Returns a finding about the rows that are new, changed and gone since the table was imported before, by their ids.

@@ -30,12 +30,14 @@ pub(super) fn lexicon_of_table(job: &mut ImportJob<'_>, earlier: Option<i64>) ->
     lexicon_row(job, lexicon)
 }
 
-/// The lexicons that rows of a table name, in a column `lexicon` such as exports have, or `dataset`.
+/// The entries that rows of a table name: the lexicon in a column `lexicon` such as exports have, or `dataset`; the number
+/// among the entries of one gloss in a column `homonym`.
 #[derive(Default)]
 pub(super) struct LexiconCells {
     column: Option<usize>,
-    /// The title of the column.
-    pub(super) title: Option<String>,
+    number_column: Option<usize>,
+    /// The titles of the columns.
+    pub(super) titles: Vec<String>,
     /// The lexicons by name.
     pub(super) lexicons: BTreeMap<String, i64>,
     /// Whether every row names one.
@@ -47,8 +49,15 @@ impl LexiconCells {
     /// all rows.
     pub(super) fn read_lexicon_cells(job: &mut ImportJob<'_>, table: &SignLexicon) -> CorpusResult<Self> {
         const LEXICON_TITLES: [&str; 3] = ["lexicon", "lexique", "dataset"];
+        const HOMONYM_TITLE: &str = "homonym";
         let is_lexicon = |column: &LexiconColumn| LEXICON_TITLES.contains(&&*fold_text(column.title.trim()));
-        let mut cells = Self::default();
+        let is_number = |column: &LexiconColumn| fold_text(column.title.trim()) == HOMONYM_TITLE;
+        let mut cells = Self {
+            number_column: table.columns.iter().position(is_number),
+            ..Self::default()
+        };
+        let number_title = cells.number_column.map(|column| table.columns[column].title.clone());
+        cells.titles.extend(number_title);
         let Some(column) = table
             .columns
             .iter()
@@ -69,8 +78,18 @@ impl LexiconCells {
             cells.lexicons.insert(name.to_owned(), lexicon.id);
         }
         cells.column = Some(column);
-        cells.title = Some(table.columns[column].title.clone());
+        cells.titles.push(table.columns[column].title.clone());
         Ok(cells)
+    }
+
+    /// Returns the number that a row has among the entries of its gloss, if the table has a column for it; an empty cell is
+    /// the first.
+    pub(super) fn number_of_row(&self, row: &LexiconEntry) -> Option<i64> {
+        let cell = row.cells[self.number_column?].trim();
+        match cell.is_empty() {
+            true => Some(1),
+            false => cell.parse().ok().filter(|number| *number > 0),
+        }
     }
 
     /// Returns the lexicon that a row names.
@@ -136,8 +155,22 @@ fn make_lexicon(job: &mut ImportJob<'_>, name: &str) -> CorpusResult<LexiconRow>
     })
 }
 
-/// Returns a finding about a recording whose glosses are looked up in no lexicon although the corpus has several.
+/// Returns a finding about a recording whose glosses are looked up in no lexicon although the corpus has several, or about
+/// its glosses that several entries of its lexicon have.
 pub(super) fn unlinked_glosses_finding(job: &ImportJob<'_>, recording: i64) -> CorpusResult<Option<ReportFinding>> {
+    let bare = lexicons::bare_glosses_of_recording(job.connection, recording)?;
+    if let Some(first) = bare.first() {
+        return Ok(Some(ReportFinding::finding_warning(
+            format!(
+                "glosses of several entries, of which the first was taken: {}",
+                bare.join(", ")
+            ),
+            ErrorRemedy::command_remedy(format!(
+                "write {:?} in an annotation that means the second; `chereme list CORPUS signs` lists the entries",
+                format!("{first}#2")
+            )),
+        )));
+    }
     let rows = lexicons::load_lexicon_rows(job.connection)?;
     // With a single lexicon, all glosses belong to it without a link.
     if rows.len() < 2 || lexicons::lexicon_of_recording(job.connection, recording)?.is_some() {

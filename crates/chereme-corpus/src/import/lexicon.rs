@@ -108,6 +108,7 @@ pub(super) fn import_lexicon(job: &mut ImportJob<'_>, progress: &mut ProgressRec
         }
     }
     signs.leave_emptied(job)?;
+    report.findings.extend(signs.homonyms_finding());
     report.findings.extend(signs.earlier.row_id_finding());
     report.findings.extend(signs.earlier.missing_entries_finding());
     Ok(report)
@@ -263,11 +264,17 @@ struct LexiconSigns {
     /// The lexicon to which they belong, unless their row names one.
     lexicon: Option<i64>,
     by_row: LexiconCells,
-    known: BTreeMap<(Option<i64>, String), KnownSign>,
+    known: BTreeMap<EntryKey, i64>,
+    signs: BTreeMap<i64, KnownSign>,
+    /// The largest number that a row got without saying one, by lexicon and gloss.
+    numbers: BTreeMap<(Option<i64>, String), i64>,
     earlier: EarlierEntries,
     /// The signs that lost an entry to another gloss, with the cells of its row.
     left: BTreeMap<i64, BTreeSet<String>>,
 }
+
+/// Lexicon and gloss of an entry, and its number among those of the gloss if something keeps them apart.
+type EntryKey = (Option<i64>, String, Option<i64>);
 
 /// A sign of the corpus to which rows of the table add entries.
 struct KnownSign {
@@ -309,13 +316,81 @@ impl LexiconSigns {
         })
     }
 
-    /// Returns the sign of a row; inserts it if it is missing.
-    fn sign_of_row(&mut self, job: &mut ImportJob<'_>, row: &LexiconEntry) -> CorpusResult<&mut KnownSign> {
+    /// Returns the sign of a row, which had an entry before if `earlier` is one; inserts it if it is missing.
+    fn sign_of_row(
+        &mut self,
+        job: &mut ImportJob<'_>,
+        row: &LexiconEntry,
+        earlier: Option<&TokenRow>,
+    ) -> CorpusResult<&mut KnownSign> {
         let lexicon = self.by_row.lexicon_of_row(row).or(self.lexicon);
-        match self.known.entry((lexicon, compose_accents(&row.gloss).into_owned())) {
+        let gloss = compose_accents(&row.gloss).into_owned();
+        let number = match self.by_row.number_of_row(row) {
+            Some(number) => Some(number),
+            None => self.number_of_entry(job, (lexicon, &gloss), earlier)?,
+        };
+        let id = match self.known.entry((lexicon, gloss, number)) {
+            Entry::Occupied(known) => *known.get(),
+            Entry::Vacant(new) => {
+                let sign = match number {
+                    Some(number) => signs::enter_homonym(job.connection, lexicon, &row.gloss, number)?,
+                    None => signs::enter_sign(job.connection, lexicon, &row.gloss)?,
+                };
+                job.count_created_rows("signs", usize::from(sign.is_new));
+                *new.insert(sign.id)
+            }
+        };
+        match self.signs.entry(id) {
             Entry::Occupied(known) => Ok(known.into_mut()),
-            Entry::Vacant(new) => Ok(new.insert(KnownSign::load_known_sign(job, lexicon, &row.gloss)?)),
+            Entry::Vacant(new) => Ok(new.insert(KnownSign {
+                id,
+                has_citation: signs::has_citation(job.connection, id)?,
+            })),
         }
+    }
+
+    /// Returns the number of a row among the entries of its gloss: the one that it had before, unless another row has it;
+    /// otherwise, if the rows have ids, the first that no other row has. Without ids, rows of one gloss are one entry.
+    fn number_of_entry(
+        &mut self,
+        job: &ImportJob<'_>,
+        (lexicon, gloss): (Option<i64>, &str),
+        earlier: Option<&TokenRow>,
+    ) -> CorpusResult<Option<i64>> {
+        let has_ids = self.earlier.has_row_ids();
+        let is_taken = |number| has_ids && self.known.contains_key(&(lexicon, gloss.to_owned(), Some(number)));
+        let stays = earlier.filter(|token| compose_accents(token.plain_gloss()) == gloss);
+        let before = stays.map(|token| token.homonym.unwrap_or(1));
+        if let Some(number) = before.filter(|number| !is_taken(*number)) {
+            return Ok(Some(number));
+        }
+        if !has_ids {
+            return Ok(None);
+        }
+        let last = self.numbers.entry((lexicon, gloss.to_owned())).or_default();
+        loop {
+            *last += 1;
+            let sign = signs::find_entry(job.connection, lexicon, gloss, Some(*last))?;
+            let is_held = sign.is_some_and(|sign| self.earlier.holds_sign(gloss, sign));
+            if !is_held && !self.known.contains_key(&(lexicon, gloss.to_owned(), Some(*last))) {
+                return Ok(Some(*last));
+            }
+        }
+    }
+
+    /// Returns a finding about the glosses that several entries have.
+    fn homonyms_finding(&self) -> Option<ReportFinding> {
+        let numbered = self.known.keys().filter(|(_, _, number)| *number > Some(1));
+        let labels = numbered.map(|(_, gloss, number)| format!("{gloss}#{}", number.unwrap_or_default()));
+        let all: Vec<String> = labels.collect();
+        let shown = all.iter().take(SHOWN_NAMES).map(String::as_str);
+        let list = shown.collect::<Vec<_>>().join(", ");
+        (!all.is_empty()).then(|| {
+            ReportFinding::finding_note(format!(
+                "entries whose gloss another entry has, too: {} ({list}); annotations of the bare gloss mean the first",
+                all.len()
+            ))
+        })
     }
 
     /// Deletes the signs that have no entry any more, with the translations that the table gave them, and gives the
@@ -340,17 +415,6 @@ impl LexiconSigns {
             }
         }
         Ok(())
-    }
-}
-
-impl KnownSign {
-    fn load_known_sign(job: &mut ImportJob<'_>, lexicon: Option<i64>, gloss: &str) -> CorpusResult<Self> {
-        let sign = signs::enter_sign(job.connection, lexicon, gloss)?;
-        job.count_created_rows("signs", usize::from(sign.is_new));
-        Ok(Self {
-            id: sign.id,
-            has_citation: signs::has_citation(job.connection, sign.id)?,
-        })
     }
 }
 
@@ -457,7 +521,7 @@ fn import_entry(
     let earlier_token = signs.earlier.take_earlier_entry(table, entry);
     let (is_known, mut is_moved) = (earlier_token.is_some(), false);
     let source = Some(lexicon_row_cells(job, (table, &signs.source), entry).to_string());
-    let sign = signs.sign_of_row(job, entry)?;
+    let sign = signs.sign_of_row(job, entry, earlier_token.as_ref())?;
     for (language, text) in &entry.translations {
         signs::add_text(connection, sign.id, language, text)?;
     }
@@ -498,10 +562,9 @@ fn import_entry(
             signs::insert_token(connection, &row)?
         }
     };
-    let lexicon_title = signs.by_row.title.as_deref();
     let mut attributes: Vec<AttributeRow> = (entry.attributes.iter())
-        // The lexicon is stored as such, and would only repeat itself among the attributes.
-        .filter(|(name, _)| Some(name.as_str()) != lexicon_title)
+        // Lexicon and number are stored as such, and would only repeat themselves among the attributes.
+        .filter(|(name, _)| !signs.by_row.titles.contains(name))
         .map(|(name, text)| AttributeRow {
             name: name.clone(),
             text: text.clone(),

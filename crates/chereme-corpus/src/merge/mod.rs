@@ -6,6 +6,7 @@
 mod laws;
 mod merge_captures;
 mod merge_conflicts;
+mod merge_entries;
 mod merge_rows;
 mod merge_studies;
 mod merge_whole;
@@ -389,7 +390,7 @@ impl MergeWork<'_> {
 
     fn add_merged_row(&mut self, key: &TableRowKey, theirs: &RowImage, mut local: RowImage) -> CorpusResult<()> {
         let (table, uid) = (key.0.as_str(), key.1.as_str());
-        if self.join_same_capture(key, theirs, &local)? {
+        if self.join_same_capture(key, theirs, &local)? || self.join_same_entry(key, theirs, &mut local)? {
             return Ok(());
         }
         let placed;

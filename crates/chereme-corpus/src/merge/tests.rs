@@ -412,3 +412,48 @@ fn a_deletion_is_merged_unless_the_other_copy_changed_the_recording() {
     assert!(said(&mine).iter().any(|it| it.ends_with("NEW")));
     is_whole(&mut mine);
 }
+
+#[test]
+fn entries_that_both_copies_imported_are_matched_by_their_rows() {
+    let (desk, mut mine, mut theirs) = Desk::new();
+    let folder = tempfile::tempdir().expect("a folder");
+    let import = |corpus: &mut Corpus, text: &str| {
+        let path = folder.path().join("lex.csv");
+        std::fs::write(&path, text).expect("written");
+        let report = corpus.import_paths(&[path], &crate::ImportOptions::default(), progress());
+        report.expect("imported");
+    };
+    let head = "Signbank ID,Gloss,Handshape,Frequency";
+    import(&mut mine, &format!("{head}\n7,BANK,B,1\n3,BANK,5,2\n9,EAU,A,3\n"));
+    import(&mut theirs, &format!("{head}\n3,BANK,5,2\n5,BANK,S,4\n9,EAU,V,3\n"));
+    let report = desk.merge(&mut mine);
+    assert_eq!(report.conflicts, []);
+    let notes = report.notes.join("\n");
+    assert!(
+        notes.contains("\"BANK#3\" here") && notes.contains("\"EAU\" is coded differently"),
+        "{notes}"
+    );
+    let mut found = |query: &str| {
+        let answer = mine.search_tokens(query, &crate::SearchOptions::default());
+        answer
+            .expect(query)
+            .hits
+            .into_iter()
+            .map(|hit| hit.gloss)
+            .collect::<Vec<_>>()
+    };
+    for (query, wanted) in [
+        ("gloss=BANK", ["BANK", "BANK#2", "BANK#3"].as_slice()),
+        ("sign=BANK#2 configuration=5", &["BANK#2"]),
+        ("sign=BANK#3 configuration=S frequency=4", &["BANK#3"]),
+        ("gloss=EAU", &["EAU", "EAU"]),
+    ] {
+        let mut glosses = found(query);
+        glosses.sort();
+        assert_eq!(glosses, wanted, "{query}");
+    }
+    is_whole(&mut mine);
+    // The same merge again adds nothing.
+    let again = desk.merge(&mut mine);
+    assert_eq!((again.conflicts.len(), again.added.len()), (0, 0), "{again:?}");
+}

@@ -296,7 +296,9 @@ impl Corpus {
             let page = site.sign_page_html(at, &found.all, &moving);
             folder.write_published_file(&format!("sign/{}/index.html", entry.name), page.as_bytes())?;
         }
-        let chosen = CHOOSABLE_COMPONENTS.map(|(_, it)| publish_facets::component_facet(it, &found.all, &inventories));
+        let equal = self.list_equal_values()?;
+        let chosen =
+            CHOOSABLE_COMPONENTS.map(|(_, it)| publish_facets::component_facet(it, &found.all, &inventories, &equal));
         let data = write_choices(folder, found, &chosen, &moving, &inventories)?;
         folder.write_published_file("data/signs.js", format!("CH.data({data});\n").as_bytes())?;
         folder.write_published_file("app.js", page_script().as_bytes())?;

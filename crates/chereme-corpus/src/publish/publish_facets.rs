@@ -12,7 +12,7 @@ use super::publish_names::unique_file_names;
 use crate::db::signs::TokenValueRow;
 use crate::db::stored_columns::ValueState;
 use crate::error::{CorpusError, CorpusResult};
-use crate::inventories::StoredInventory;
+use crate::inventories::{EqualValues, StoredInventory};
 use crate::picture::picture_values::{PlacePanel, RestingBodyScene};
 
 /// The size of the picture of a hand in pixels; it is shown at 64.
@@ -70,11 +70,13 @@ pub(super) fn find_known_value<'i>(inventories: &'i [StoredInventory], row: &Tok
     all.find_map(|stored| Some((&stored.inventory, stored.inventory.value_by_id(id)?)))
 }
 
-/// Returns the values of a component that entries have, in the order of their inventories, with wider ones.
+/// Returns the values of a component that entries have, in the order of their inventories, with wider ones. Values that are
+/// one are shown once.
 pub(super) fn component_facet<'i>(
     component: SignComponent,
     entries: &[DictionaryEntry],
     inventories: &'i [StoredInventory],
+    equal: &EqualValues,
 ) -> ComponentFacet<'i> {
     let mut value_by_place: BTreeMap<InventoryPlace, KnownInventoryValue<'i>> = BTreeMap::new();
     let place = |known: KnownInventoryValue<'_>, id: &str| {
@@ -89,23 +91,23 @@ pub(super) fn component_facet<'i>(
         let (which, at) = value_place.unwrap_or((usize::MAX, 0));
         (which, at, id.to_owned())
     };
+    let shown = |row: &TokenValueRow| {
+        let known_value = find_known_value(inventories, row).map(|pair| equal.standing_value(inventories, pair));
+        let id = known_value.map_or(row.value.as_deref()?, |(_, value)| &value.id);
+        Some((place(known_value, id), known_value))
+    };
     let places_of = |entry: &DictionaryEntry| -> Vec<InventoryPlace> {
         let component_rows = entry.values.iter().filter(|row| row.component == component);
         let rows = component_rows.filter(|row| is_kind(row) && row.state == ValueState::Value);
-        rows.filter_map(|row| {
-            let known_value = find_known_value(inventories, row);
-            Some(place(known_value, row.value.as_deref()?))
-        })
-        .collect()
+        rows.filter_map(|row| Some(shown(row)?.0)).collect()
     };
     for entry in entries {
         for row in &entry.values {
             let fits = row.component == component && is_kind(row);
-            let Some(id) = row.value.as_deref().filter(|_| fits && row.state == ValueState::Value) else {
+            let Some((value_place, known_value)) = shown(row).filter(|_| fits && row.state == ValueState::Value) else {
                 continue;
             };
-            let known_value = find_known_value(inventories, row);
-            value_by_place.insert(place(known_value, id), known_value);
+            value_by_place.insert(value_place, known_value);
             if let Some((inventory, value)) = known_value {
                 // A wider value can be chosen although no sign is coded with it.
                 for wider in inventory.broader_value_chain(&value.id).skip(1) {

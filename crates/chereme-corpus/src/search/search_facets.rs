@@ -30,6 +30,7 @@ pub(crate) fn count_document_facets(
     let mut left_out = BTreeMap::new();
     let mut facets = coded_facets(ask, found)?;
     count_forms_of_hands(ask, found, &mut facets)?;
+    count_equal_values(ask, found, &mut facets)?;
     for (field, values) in &mut facets {
         let left = keep_most_frequent(values, most);
         left_out.insert(field.clone(), left);
@@ -128,6 +129,43 @@ fn count_forms_of_hands(
             }
             if !counts.is_empty() {
                 facets.insert(field, counts);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Counts values that are one as one, under the first of their words that was found.
+fn count_equal_values(
+    ask: &QueryContext<'_>,
+    found: &[IndexDocument],
+    facets: &mut FacetValueCounts,
+) -> QueryResult<()> {
+    for (field, counts) in facets {
+        let Ok(parsed) = without_hand(field).parse::<ComponentField>() else {
+            continue;
+        };
+        for texts in ask
+            .vocabulary
+            .equal_text_groups(parsed.component, parsed.feature.as_deref())
+        {
+            let mut held = texts
+                .iter()
+                .filter(|text| counts.iter().any(|(value, _)| value == *text));
+            let others: Vec<&String> = match held.next() {
+                Some(first) => [first].into_iter().chain(held).collect(),
+                None => continue,
+            };
+            let [first, others @ ..] = others.as_slice() else {
+                continue;
+            };
+            if others.is_empty() {
+                continue;
+            }
+            if let Some(count) = count_of_condition(ask, found, field, first)? {
+                counts.retain(|(value, _)| !others.contains(&value));
+                let own = counts.iter_mut().find(|(value, _)| value == *first);
+                own.into_iter().for_each(|own| own.1 = count);
             }
         }
     }

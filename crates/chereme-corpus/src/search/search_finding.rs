@@ -28,10 +28,10 @@ pub enum FindingKind {
         /// The narrower values, as they are coded.
         values: Vec<String>,
     },
-    /// `=` also matched values that an alias in an inventory makes equal to the named one.
+    /// The condition also matched values that are equal to the named one.
     Equal {
-        /// The field of the condition.
-        field: String,
+        /// The field of the condition, if an alias in an inventory makes them equal; nothing if a person made them one.
+        field: Option<String>,
         /// The other values as they are coded, each with the number of its tokens.
         values: Vec<(String, usize)>,
     },
@@ -136,12 +136,14 @@ impl QueryFinding {
             ),
             FindingKind::Equal { field, values } => {
                 let counted = |(value, count): &(String, usize)| format!("{value} ({count})");
-                let values: Vec<String> = values.iter().map(counted).collect();
-                format!(
-                    "{condition} counts values that are equal to it by an alias, too: {}; {field}== with one of these \
-                     names counts it alone",
-                    values.join(", ")
-                )
+                let values = values.iter().map(counted).collect::<Vec<_>>().join(", ");
+                match field {
+                    Some(field) => format!(
+                        "{condition} counts values that are equal to it by an alias, too: {values}; {field}== with one of \
+                         these names counts it alone"
+                    ),
+                    None => format!("{condition} counts values that are one with it, too: {values}"),
+                }
             }
             FindingKind::Matched { values } => format!("{condition} matched: {}", few(values)),
             FindingKind::NotCoded { component, part } => {

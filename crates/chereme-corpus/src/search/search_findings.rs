@@ -105,10 +105,25 @@ fn of_value<'k>(
         let count = |(text, terms): (String, Vec<&str>)| -> QueryResult<(String, usize)> {
             Ok((text, ask.run_index_probe(&IndexProbe::from_reading_terms(terms))?.len()))
         };
-        kinds.push(FindingKind::Equal {
-            field: test.field.to_string(),
-            values: aliases.into_iter().map(count).collect::<QueryResult<_>>()?,
-        });
+        let is_joined = |text: &String| {
+            let mut parts = test
+                .parts
+                .iter()
+                .filter_map(|(part, accepted)| Some((part, accepted.get(number)?)));
+            parts.any(|(part, accepted)| {
+                let is_meant = |other: &String| other != text && accepted.means_stored_value(other, &fold_text(other));
+                let mut groups = ask.vocabulary.equal_text_groups(test.field.component, part.as_deref());
+                groups.any(|group| group.contains(text) && group.iter().any(is_meant))
+            })
+        };
+        let (joined, by_alias): (BTreeMap<_, _>, BTreeMap<_, _>) =
+            aliases.into_iter().partition(|(text, _)| is_joined(text));
+        for (field, values) in [(None, joined), (Some(test.field.to_string()), by_alias)] {
+            if !values.is_empty() {
+                let values = values.into_iter().map(count).collect::<QueryResult<_>>()?;
+                kinds.push(FindingKind::Equal { field, values });
+            }
+        }
     }
     if !narrower.is_empty() {
         kinds.push(FindingKind::Widened {

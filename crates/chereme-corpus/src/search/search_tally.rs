@@ -340,6 +340,25 @@ fn of_component(
             groups.push((value.clone(), having(ask, found, field, known)?));
         }
     }
+    // Values that are one count as one, under the first of their words that is in use.
+    for texts in ask
+        .vocabulary
+        .equal_text_groups(field.component, field.feature.as_deref())
+    {
+        let (equal, others): (Vec<_>, Vec<_>) = groups.into_iter().partition(|(value, _)| texts.contains(value));
+        groups = others;
+        let rank = |value: &String| texts.iter().position(|text| text == value);
+        let name = equal
+            .iter()
+            .filter(|(_, docs)| !docs.is_empty())
+            .min_by_key(|(value, _)| rank(value));
+        if let Some((name, _)) = name {
+            let mut docs: DocumentList = equal.iter().flat_map(|(_, docs)| docs).copied().collect();
+            docs.sort_unstable();
+            docs.dedup();
+            groups.push((name.clone(), docs));
+        }
+    }
     Ok(groups)
 }
 

@@ -5,19 +5,29 @@ use std::collections::{BTreeMap, BTreeSet};
 use chereme_sign::inventory::builtin_by_id;
 use chereme_sign::query::{ComparisonOperator, ValueFeature, WantedValue};
 use chereme_sign::text::{compose_accents, fold_text};
-use chereme_sign::{ComponentInventory, InventoryValue, SignComponent};
+use chereme_sign::{ComponentField, ComponentInventory, InventoryValue, SignComponent};
 use rusqlite::Connection;
 
 use super::search_known::ReadingsByValue;
 use super::search_texts::TextGlob;
 use crate::error::CorpusResult;
-use crate::inventories;
+use crate::inventories::{self, EqualValues};
 
 /// The inventories of a corpus in the form for queries.
 ///
 /// A name stands for every value that has it as id, alias or name, in any inventory of the component: values of the
 /// same name are one value to a query.
-pub(crate) struct QueryVocabulary(Vec<KnownInventory>);
+pub(crate) struct QueryVocabulary {
+    inventories: Vec<KnownInventory>,
+    equal: Vec<EqualTexts>,
+}
+
+/// Texts of values that are one, as a person says.
+struct EqualTexts {
+    field: ComponentField,
+    /// The texts, that of the value that stands for the others first.
+    texts: Vec<String>,
+}
 
 /// An inventory, and the folded spellings of each of its values.
 struct KnownInventory {
@@ -106,8 +116,43 @@ impl QueryVocabulary {
     /// Reads the inventories of a corpus.
     pub(crate) fn load_vocabulary(connection: &Connection) -> CorpusResult<Self> {
         let stored = inventories::load_all_inventories(connection)?;
-        let inventories = stored.into_iter().map(|one| KnownInventory::new(one.inventory));
-        Ok(Self(inventories.collect()))
+        let equal_values = EqualValues::load_equal_values(connection)?;
+        let mut equal = Vec::new();
+        for group in equal_values.equal_groups() {
+            let mut texts: Vec<String> = group.iter().map(|name| name.value.clone()).collect();
+            texts.dedup();
+            let first = stored.iter().find(|one| one.inventory.id == group[0].inventory);
+            equal.extend(first.map(|one| EqualTexts {
+                field: one.inventory.inventory_field(),
+                texts,
+            }));
+        }
+        let inventories = stored.into_iter().map(|mut one| {
+            for value in &mut one.inventory.values {
+                let group = equal_values
+                    .find_equal_group(&one.inventory.id, &value.id)
+                    .unwrap_or_default();
+                let others = group.iter().filter(|name| name.value != value.id);
+                // To a query, the words of the others are further spellings of the value.
+                value.aliases.extend(others.map(|name| name.value.clone()));
+            }
+            KnownInventory::new(one.inventory)
+        });
+        Ok(Self {
+            inventories: inventories.collect(),
+            equal,
+        })
+    }
+
+    /// Returns the texts of values of a part of a component that are one, in groups.
+    pub(crate) fn equal_text_groups<'a>(
+        &'a self,
+        component: SignComponent,
+        part: Option<&'a str>,
+    ) -> impl Iterator<Item = &'a [String]> {
+        let of_part =
+            move |group: &&EqualTexts| group.field.component == component && group.field.feature.as_deref() == part;
+        self.equal.iter().filter(of_part).map(|group| group.texts.as_slice())
     }
 
     /// Returns the inventories of a part of a component.
@@ -125,13 +170,13 @@ impl QueryVocabulary {
         component: SignComponent,
         part: Option<&'a str>,
     ) -> impl Iterator<Item = &'a KnownInventory> {
-        self.0
+        self.inventories
             .iter()
             .filter(move |known| known.inventory.component == component && known.inventory.feature.as_deref() == part)
     }
 
     fn all_vocabulary_inventories(&self) -> impl Iterator<Item = &ComponentInventory> {
-        self.0.iter().map(|known| &known.inventory)
+        self.inventories.iter().map(|known| &known.inventory)
     }
 
     /// Returns the parts of a component that have inventories.
@@ -200,6 +245,13 @@ impl QueryVocabulary {
                     true => value.value_spellings().any(|text| glob.matches_whole_text(text)),
                     false => glob.matches_whole_text(&value.id),
                 });
+                for texts in self.equal_text_groups(component, part) {
+                    if literal && texts.iter().any(|text| glob.matches_whole_text(text)) {
+                        let others = texts.iter().filter(|text| !glob.matches_whole_text(text));
+                        accepted.aliases.extend(others.map(|text| fold_text(text)));
+                        accepted.exact.extend(texts.iter().cloned());
+                    }
+                }
                 accepted.exact_glob = Some(glob);
             }
             WantedValue::Named(pattern) => {

@@ -92,6 +92,10 @@ pub enum OperationEffect {
         into: String,
         inventory: String,
     },
+    /// Two values of different inventories became one.
+    EquateValues { value: String, other: String },
+    /// A value is one with no other any more.
+    PartValue { value: String },
     /// A recording got other properties.
     ChangeRecording { recording: String },
     /// A signer got other properties.
@@ -109,6 +113,8 @@ pub enum OperationEffect {
     ChangePerson { person: String },
     /// People became one.
     UnitePeople { names: Vec<String>, person: String },
+    /// Lexicons became one.
+    UniteLexicons { names: Vec<String>, lexicon: String },
     /// A person of whom nothing was recorded was removed.
     RemovePerson { person: String },
     /// A table of people was read.
@@ -334,12 +340,15 @@ impl OperationEffect {
             Self::OrderTiers { .. } | Self::ChangeRecording { .. } | Self::ChangeMedia { .. } => "{recording}",
             Self::AddValue { .. } => "{value} to {inventory}",
             Self::MergeValues { .. } => "{value} into {into} in {inventory}",
+            Self::EquateValues { .. } => "{value} and {other}",
+            Self::PartValue { .. } => "{value}",
             Self::ChangeSigner { .. } => "{signer}",
             Self::ChangeSign { former: None, .. } => "{sign}",
             Self::ChangeSign { .. } => "{former} to {sign}, {annotations}",
             Self::SetCitation { .. } => "token:{token} for {gloss}",
             Self::ChangePerson { .. } | Self::RemovePerson { .. } => "{person}",
             Self::UnitePeople { .. } => "{names} into {person}",
+            Self::UniteLexicons { .. } => "{names} into {lexicon}",
             Self::ImportPeople { .. } => "{people} people from {file}",
             Self::ChangeLexicon { .. } | Self::RemoveLexicon { .. } => "{lexicon}",
             Self::MeasureSigns { .. } => "{counted signs}",

@@ -233,15 +233,11 @@ fn interpret(
                 ImportFinding::new_note_finding(
                     line,
                     format!(
-                        "the gloss {name:?} stands in line {first} too; this row is kept as another entry of \
-                         that sign"
+                        "the gloss {name:?} stands in line {first} too; unless ids or numbers keep the rows apart, \
+                         they are forms of one sign"
                     ),
                 )
-                .with_remedy(format!(
-                    "if these are two signs, write {:?} and {:?}",
-                    format!("{name}-A"),
-                    format!("{name}-B")
-                ))
+                .with_remedy("if these are two signs, add a column \"homonym\" with 1, 2 and so on, or a column \"id\"")
             });
         }
         let garbled = |(column, cell): (&LexiconColumn, &String)| {

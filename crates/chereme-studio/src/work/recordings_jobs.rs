@@ -52,6 +52,21 @@ pub(crate) fn link_lexicon_job(recording: i64, lexicon: Option<String>) -> Corpu
     })
 }
 
+/// Makes a lexicon one with another, which stays.
+pub(crate) fn unite_lexicons_job(from: String, into: String) -> CorpusJob {
+    CorpusJob::new_change_job(move |corpus, progress| corpus.unite_lexicons(&[from], &into, progress))
+}
+
+/// Makes two values one, of which the second stands for the first.
+pub(crate) fn equate_values_job(value: String, other: String) -> CorpusJob {
+    CorpusJob::new_change_job(move |corpus, _| corpus.equate_values(&value, &other))
+}
+
+/// Takes a value out of those that it is one with.
+pub(crate) fn part_value_job(value: String) -> CorpusJob {
+    CorpusJob::new_change_job(move |corpus, _| corpus.part_equal_value(&value))
+}
+
 /// Makes a token the citation form of its sign.
 pub(crate) fn set_citation(token: CorpusAddress) -> CorpusJob {
     CorpusJob::new_change_job(move |corpus, _| corpus.set_citation(&token))
@@ -100,10 +115,7 @@ pub(crate) fn look_up_details_job(thing: InspectedThing) -> CorpusJob {
             InspectedThing::Sign(id) => ObjectDetails::Sign(corpus.sign_details(&RowName::Number(id))?),
             InspectedThing::Signer(id) => ObjectDetails::Signer(corpus.signer_details(&RowName::Number(id))?),
             InspectedThing::Recording(id) => ObjectDetails::Recording(corpus.recording_details(&RowName::Number(id))?),
-            InspectedThing::Value(inventory, value) => {
-                let uses = corpus.value_uses(inventory, &value)?;
-                ObjectDetails::Value(inventory, value, uses)
-            }
+            InspectedThing::Value(inventory, value) => ObjectDetails::Value(corpus.value_details(inventory, &value)?),
         };
         Ok(WorkOutcome::Looked(details))
     })

@@ -29,7 +29,7 @@ pub(crate) enum NamedRowKind {
     Signer,
     Recording,
     Sign,
-    /// Signs by lexicon and gloss: `NGT/BOOK`.
+    /// Signs by lexicon and gloss, by gloss and number, or by all of them: `NGT/BOOK`, `BANK#2`, `NGT/BANK#2`.
     LexiconEntry,
 }
 
@@ -42,7 +42,9 @@ pub(crate) fn list_row_names(connection: &Connection, named: NamedRowKind) -> Co
         NamedRowKind::Recording => "SELECT id, name FROM recording ORDER BY id",
         NamedRowKind::Sign => "SELECT id, gloss FROM sign ORDER BY id",
         NamedRowKind::LexiconEntry => {
-            "SELECT s.id, l.name || '/' || s.gloss FROM sign s JOIN lexicon l ON l.id = s.lexicon_id ORDER BY s.id"
+            "SELECT s.id, l.name || '/' || x.value FROM sign s JOIN lexicon l ON l.id = s.lexicon_id
+             JOIN json_each(json_array(s.gloss, s.gloss || '#' || ifnull(s.homonym, 1))) x
+             UNION ALL SELECT id, gloss || '#' || ifnull(homonym, 1) FROM sign ORDER BY 1"
         }
     };
     let mut statement = connection.prepare_cached(sql)?;
@@ -79,7 +81,7 @@ pub(crate) struct HitRow {
 pub(crate) fn find_hit_row(connection: &Connection, token: i64) -> CorpusResult<Option<HitRow>> {
     Ok(connection
         .prepare_cached(
-            "SELECT s.gloss, r.name, t.start_us, t.end_us, t.origin, l.name
+            "SELECT s.label, r.name, t.start_us, t.end_us, t.origin, l.name
              FROM token t JOIN sign s ON s.id = t.sign_id LEFT JOIN lexicon l ON l.id = s.lexicon_id
              LEFT JOIN recording r ON r.id = t.recording_id WHERE t.id = ?1",
         )?

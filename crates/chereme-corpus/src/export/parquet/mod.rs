@@ -179,7 +179,7 @@ pub(super) fn write_component_parquet(
         "state",
         "value",
     ];
-    let empty: ParquetTable = ["token", "position", "annotation"]
+    let empty: ParquetTable = ["token", "position", "annotation", "homonym"]
         .map(|name| ParquetColumn::new(name, ParquetCells::Integer(Vec::new())))
         .into_iter()
         .chain(texts.map(|name| ParquetColumn::new(name, ParquetCells::Text(Vec::new()))))
@@ -193,9 +193,9 @@ pub(super) fn write_component_parquet(
             let Some(token) = rows.get(id) else { continue };
             for value in values.get(id).map_or(&[][..], Vec::as_slice) {
                 let place = phase_place(value.phase);
-                let numbers = [Some(*id), Some(place), value.annotation_id];
+                let numbers = [Some(*id), Some(place), value.annotation_id, token.homonym];
                 let texts = [
-                    Some(token.gloss.as_str()),
+                    Some(token.plain_gloss()),
                     token.lexicon.as_deref(),
                     token.recording.as_deref(),
                     Some(value.component.component_name()),

@@ -1,7 +1,7 @@
 //! Tests of lexicon tables that are imported again, of their mapping, and of queries for what their cells hold.
 
 use super::*;
-use crate::{PairOptions, ProgressReceiver, SearchOptions};
+use crate::{PairOptions, ProgressReceiver, RowName, SearchOptions, SignChange};
 
 fn total(corpus: &mut Corpus, query: &str) -> usize {
     let answer = corpus.search_tokens(query, &SearchOptions::default());
@@ -39,9 +39,9 @@ fn another_mapping_of_the_gloss_changes_the_signs_and_makes_no_new_ones() {
     import(&mut corpus, &table, "{}");
     assert_eq!(glosses(&corpus), ["L1", "e1", "e2", "e3"]);
     let name = RowName::Text("e2".into());
-    let note = crate::SignChange {
+    let note = SignChange {
         notes: Some(Some("kept".to_owned())),
-        ..crate::SignChange::default()
+        ..SignChange::default()
     };
     corpus.change_sign(&name, &note).expect("noted");
     let before = corpus.load_corpus_info().expect("info").counts.clone();
@@ -295,4 +295,109 @@ fn token_ids_by_attribute(corpus: &Corpus, name: &str) -> BTreeMap<String, i64> 
         .expect("a statement");
     let rows = statement.query_map([name], |row| Ok((row.get(0)?, row.get(1)?)));
     rows.expect("rows").collect::<Result<_, _>>().expect("read")
+}
+
+/// Returns the glosses of all signs with their numbers, in the order of lists.
+fn labels(corpus: &Corpus) -> Vec<String> {
+    let signs = corpus.load_corpus_overview(0).expect("an overview").signs;
+    signs.into_iter().map(|sign| sign.gloss).collect()
+}
+
+#[test]
+fn rows_of_one_gloss_with_ids_are_entries_of_their_own() {
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("c.chereme");
+    let head = "Signbank ID,Gloss,Handshape";
+    let table = desk.file("t.csv", &format!("{head}\n77,BANK,B\n12,BANK,5\n31,CHAT,A\n"));
+    let report = import(&mut corpus, &table, "{}");
+    assert!(messages(&report).contains("BANK#2"), "{}", messages(&report));
+    assert_eq!(labels(&corpus), ["BANK", "BANK#2", "CHAT"]);
+    assert_eq!(pairs(&mut corpus, &["Handshape"]), (3, 3));
+    let take = eaf(&[("Gloss", 0, 500, "BANK"), ("Gloss2", 600, 900, "BANK#2")]);
+    let report = import(
+        &mut corpus,
+        &desk.file("take.eaf", &take),
+        r#"{"tiers": {"Gloss2": "gloss"}}"#,
+    );
+    assert!(
+        messages(&report).contains("which the first was taken: BANK"),
+        "{}",
+        messages(&report)
+    );
+    let lexicon = &corpus.list_lexicons().expect("lexicons")[0];
+    assert_eq!((lexicon.signs, lexicon.homonyms, lexicon.guessed_tokens), (3, 1, 1));
+    for (query, wanted) in [
+        ("gloss=BANK", 4),
+        ("sign=BANK#2", 2),
+        ("sign=BANK#1", 2),
+        ("sign=t/BANK#2", 2),
+    ] {
+        assert_eq!(total(&mut corpus, query), wanted, "{query}");
+    }
+    let details = |corpus: &Corpus, name: &str| corpus.sign_details(&RowName::Text(name.to_owned()));
+    let ambiguous = details(&corpus, "BANK").expect_err("two entries").to_string();
+    assert!(
+        ambiguous.contains("t/BANK#1") && ambiguous.contains("t/BANK#2"),
+        "{ambiguous}"
+    );
+    let second = details(&corpus, "t/BANK#2").expect("an entry");
+    assert_eq!((second.gloss.as_str(), second.tokens.len()), ("BANK#2", 2));
+    // Another order of the rows and a new one change no number; without ids, the cells tell.
+    let text = format!("{head}\n50,BANK,A\n12,BANK,5\n31,CHAT,A\n77,BANK,V\n");
+    import(&mut corpus, &desk.file("t.csv", &text), "{}");
+    assert_eq!(labels(&corpus), ["BANK", "BANK#2", "BANK#3", "CHAT"]);
+    assert_eq!(total(&mut corpus, "sign=BANK#1 configuration=V"), 1);
+    assert_eq!(total(&mut corpus, "sign=BANK#3 configuration=A"), 1);
+    // Tables of tokens keep the numbers, in a corpus of their own, too.
+    let out = desk.folder.path().join("out.csv");
+    let mut hear = ignore_progress_step;
+    let progress = &mut ProgressReceiver::new(&mut hear);
+    let exported = corpus.export_corpus(&ExportWhat::All, &out, &ExportOptions::default(), progress);
+    exported.expect("exported");
+    let mut other = desk.corpus("d.chereme");
+    import(&mut other, &out, "{}");
+    assert_eq!(labels(&other), ["BANK", "BANK#2", "BANK#3", "CHAT"]);
+    // Renaming an entry renames the annotations of that entry, and gives it the number that is asked for.
+    let rename = |corpus: &mut Corpus, from: &str, to: &str| {
+        let change = SignChange {
+            gloss: Some(to.to_owned()),
+            ..SignChange::default()
+        };
+        corpus.change_sign(&RowName::Text(from.to_owned()), &change)
+    };
+    assert_eq!(rename(&mut corpus, "BANK#2", "RIVE").expect("renamed"), "RIVE");
+    assert_eq!(total(&mut corpus, "sign=RIVE origin=captured"), 1);
+    assert!(rename(&mut corpus, "RIVE", "BANK#3").is_err());
+    assert_eq!(rename(&mut corpus, "RIVE", "BANK#2").expect("renamed"), "BANK#2");
+    corpus.undo_operation().expect("undone");
+    assert_eq!(labels(&corpus), ["BANK", "BANK#3", "CHAT", "RIVE"]);
+    assert_whole(&mut corpus);
+}
+
+#[test]
+fn entries_of_a_table_that_had_no_ids_part_when_it_has_them() {
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("c.chereme");
+    import(
+        &mut corpus,
+        &desk.file("t.csv", "Gloss,Handshape\nBANK,B\nBANK,5\n"),
+        "{}",
+    );
+    assert_eq!(labels(&corpus), ["BANK"]);
+    let numbered = "Gloss,Handshape,homonym\nBANK,B,\nBANK,5,2\n";
+    import(&mut corpus, &desk.file("t.csv", numbered), "{}");
+    assert_eq!(labels(&corpus), ["BANK", "BANK#2"]);
+    assert_eq!(total(&mut corpus, "sign=BANK#2 configuration=5"), 1);
+    // The number is that of the entry, and no attribute.
+    let attribute = corpus.search_tokens("attribute.homonym=*", &SearchOptions::default());
+    assert!(attribute.is_err());
+    // A table that lost the numbers keeps its rows where they are.
+    import(
+        &mut corpus,
+        &desk.file("t.csv", "Gloss,Handshape\nBANK,A\nBANK,5\n"),
+        "{}",
+    );
+    assert_eq!(labels(&corpus), ["BANK", "BANK#2"]);
+    assert_eq!(total(&mut corpus, "sign=BANK#1 configuration=A"), 1);
+    assert_whole(&mut corpus);
 }

@@ -235,3 +235,75 @@ fn a_lexicon_is_removed_once_it_has_no_signs() {
     corpus.undo_operation().expect("undone");
     assert_eq!(names(&corpus).len(), 3);
 }
+
+#[test]
+fn lexicons_are_made_one_entry_by_entry_and_nothing_is_lost() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = Corpus::create_corpus(&folder.path().join("c.chereme"), "test").expect("made");
+    let table = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        fs::write(&path, text).expect("written");
+        path
+    };
+    let head = "Signbank ID,Gloss,translation.en,Handshape";
+    let old = format!("{head}\n7,BANK,bank,B\n3,BANK,bench,5\n9,CHAT,cat,A\n");
+    let new = format!("{head}\n3,BANK,bench,5\n5,BANK,shore,S\n9,CHAT,puss,V\n4,CHIEN,dog,A\n");
+    import_file(&mut corpus, &table("old.csv", &old));
+    import_file(&mut corpus, &table("new.csv", &new));
+    let take = table(
+        "take.eaf",
+        &eaf(&[("Gloss", 0, 500, "BANK"), ("Gloss2", 600, 900, "CHIEN")]),
+    );
+    let mapping = r#"{"tiers": {"Gloss2": "gloss"}}"#;
+    let options = ImportOptions {
+        mapping: TierMapping::from_json(mapping).expect("a mapping"),
+        ..ImportOptions::default()
+    };
+    import_with(&mut corpus, &take, &options);
+    let progress = &mut ProgressReceiver::silent_progress();
+    let linked = corpus.link_lexicon(Some("old"), &LinkedRecordings::All, progress);
+    assert_eq!(linked.expect("linked").len(), 1);
+    let before = corpus.corpus_generation().expect("a number");
+    for (lexicon, version) in [("old", "1"), ("new", "2")] {
+        let change = LexiconChange {
+            version: Some(Some(version.to_owned())),
+            ..LexiconChange::default()
+        };
+        corpus.change_lexicon(lexicon, &change).expect("changed");
+    }
+    let refused = corpus.unite_lexicons(&["old".to_owned()], "new", progress);
+    let refused = refused.expect_err("two versions").to_string();
+    assert!(refused.contains("version (2, 1)"), "{refused}");
+    let change = LexiconChange {
+        version: Some(None),
+        ..LexiconChange::default()
+    };
+    corpus.change_lexicon("old", &change).expect("changed");
+    let united = corpus
+        .unite_lexicons(&["old".to_owned()], "new", progress)
+        .expect("united");
+    // Id 3 is the second of one and the first of the other; the first of one has no partner, and moves.
+    assert_eq!((united.joined, united.moved), (2, 1), "{united:?}");
+    assert_eq!(united.differing, ["CHAT"]);
+    assert_eq!(united.renumbered, ["BANK is BANK#3", "BANK#2 is BANK"]);
+    let lexicons = corpus.list_lexicons().expect("lexicons");
+    let [only] = lexicons.as_slice() else {
+        panic!("{lexicons:?}")
+    };
+    assert_eq!(
+        (only.signs, only.homonyms, only.recordings, only.files.len()),
+        (5, 2, 1, 2)
+    );
+    assert_eq!(only.lexicon.version.as_deref(), Some("2"));
+    // The annotation of the first entry of old says so now, and the gloss that old did not have is an entry.
+    assert_eq!(found(&mut corpus, "sign=BANK#3 origin=captured"), ["BANK#3"]);
+    assert_eq!(found(&mut corpus, "lexicon=new origin=captured").len(), 2);
+    assert_eq!(found(&mut corpus, "sign=BANK#1").len(), 2);
+    assert_eq!(found(&mut corpus, "translation:cat configuration=V").len(), 1);
+    assert_whole(&mut corpus);
+    corpus.undo_operation().expect("undone");
+    assert_eq!(corpus.list_lexicons().expect("lexicons").len(), 2);
+    assert_eq!(found(&mut corpus, "sign=old/BANK#1 origin=captured"), ["BANK"]);
+    assert!(corpus.corpus_generation().expect("a number") > before);
+    assert_whole(&mut corpus);
+}

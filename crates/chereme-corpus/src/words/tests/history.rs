@@ -111,6 +111,11 @@ fn all_effects() -> Vec<OperationEffect> {
             into: text("into"),
             inventory: text("inventory"),
         },
+        Effect::EquateValues {
+            value: text("value"),
+            other: text("other"),
+        },
+        Effect::PartValue { value: text("value") },
         Effect::ChangeRecording {
             recording: recording.clone(),
         },
@@ -122,6 +127,10 @@ fn all_effects() -> Vec<OperationEffect> {
             gloss: gloss.clone(),
         },
         Effect::ChangePerson { person: text("Ada") },
+        Effect::UniteLexicons {
+            names: vec![text("A")],
+            lexicon: text("B"),
+        },
         Effect::UnitePeople {
             names: vec![text("ada"), text("A.L.")],
             person: text("Ada"),

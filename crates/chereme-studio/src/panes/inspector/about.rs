@@ -4,9 +4,10 @@ use std::collections::BTreeMap;
 
 use chereme_corpus::{
     ConsentAudience, MediaChange, PersonAttribute, PersonChange, PersonContents, RecordingChange, RecordingDetails,
-    RecordingGlance, RowName, SignChange, SignDetails, SignerChange, SignerDetails, TrackKind,
+    RecordingGlance, RowName, SignChange, SignDetails, SignerChange, SignerDetails, TrackKind, ValueDetails,
 };
 use chereme_motion::{BodySide, RecordingInstant};
+use chereme_sign::ComponentInventory;
 use eframe::egui::{CollapsingHeader, Id, Label, RichText, Sense, Ui, vec2};
 
 use super::inspector_edit::{
@@ -404,7 +405,23 @@ pub(super) fn show_sign_details(
     show_part_title(ui, seen.say_text(words::SIGN), &sign.gloss);
     if let Some(lexicon) = &sign.lexicon {
         show_inspector_grid(ui, "sign lexicon", |ui| {
-            name_and_value(ui, seen, words::LEXICON, lexicon)
+            name_and_value(ui, seen, words::LEXICON, lexicon);
+            let others = seen
+                .snapshot
+                .overview
+                .lexicons
+                .iter()
+                .filter(|row| row.name != *lexicon);
+            let names: Vec<&str> = others.map(|row| row.name.as_str()).collect();
+            let candidates = |typed: &str| fitting_candidates(names.iter().copied(), typed);
+            let key = Id::unique(("same lexicon", lexicon.clone()));
+            if !names.is_empty()
+                && let Some(text) = show_line_with_completion(ui, seen, key, words::SAME_LEXICON_AS, "", &candidates)
+                && !text.trim().is_empty()
+            {
+                let into = text.trim().to_owned();
+                out.request_work(recordings_jobs::unite_lexicons_job(lexicon.clone(), into));
+            }
         });
     }
     let change = |out: &mut CommandOutbox, change: SignChange| {
@@ -487,11 +504,11 @@ pub(super) fn show_inventory_value(
     it: &mut InspectorPane,
     ui: &mut Ui,
     seen: &PaneInput<'_>,
-    inventory: i64,
-    id: &str,
-    uses: u64,
+    details: &ValueDetails,
     out: &mut CommandOutbox,
 ) {
+    let ValueDetails { inventory, uses, .. } = *details;
+    let id = details.value.as_str();
     let stored = seen
         .snapshot
         .overview
@@ -529,6 +546,7 @@ pub(super) fn show_inventory_value(
             name_and_value(ui, seen, words::NOTES, notes);
         }
         name_and_value(ui, seen, words::USES, &uses.to_string());
+        show_equal_values(it, ui, seen, stored, details, out);
     });
     if let Some(text) = &value.hamnosys {
         super::inspector_token::show_hamnosys_notation(ui, seen, text);
@@ -536,6 +554,65 @@ pub(super) fn show_inventory_value(
     if uses > 0 && ui.button(seen.say_text(words::SEARCH_USES)).clicked() {
         let field = stored.inventory_field().to_string();
         out.send_command(WindowCommand::Find(crate::panes::search::with_value("", &field, id)));
+    }
+}
+
+/// Shows the values of other inventories that are one with a value, and those that may be.
+fn show_equal_values(
+    it: &mut InspectorPane,
+    ui: &mut Ui,
+    seen: &PaneInput<'_>,
+    inventory: &ComponentInventory,
+    details: &ValueDetails,
+    out: &mut CommandOutbox,
+) {
+    let overview = &seen.snapshot.overview;
+    let own = format!("{}/{}", inventory.id, details.value);
+    let group = overview.equal_values.find_equal_group(&inventory.id, &details.value);
+    for name in group.into_iter().flatten().filter(|name| name.to_string() != own) {
+        ui.weak(seen.say_text(words::SAME_VALUE));
+        let stored = overview
+            .inventories
+            .iter()
+            .find(|stored| stored.inventory.id == name.inventory);
+        let row = stored.map_or(0, |stored| stored.id);
+        show_thing_link(
+            it,
+            ui,
+            &name.to_string(),
+            InspectedThing::Value(row, name.value.clone()),
+        );
+        ui.end_row();
+    }
+    if group.is_some() {
+        ui.weak("");
+        if ui.button(seen.say_text(words::NOT_SAME)).clicked() {
+            out.request_work(recordings_jobs::part_value_job(own.clone()));
+        }
+        ui.end_row();
+    }
+    for (name, reasons) in &details.proposals {
+        ui.weak(seen.say_text(words::PERHAPS_SAME));
+        let text = fill_text_braces(seen.say_text(words::MAKE_SAME), &[("value", name)]);
+        if ui.button(text).on_hover_text(reasons.join(", ")).clicked() {
+            out.request_work(recordings_jobs::equate_values_job(own.clone(), name.to_string()));
+        }
+        ui.end_row();
+    }
+    let field = inventory.inventory_field();
+    let others = overview.inventories.iter().map(|stored| &stored.inventory);
+    let others = others.filter(|other| other.id != inventory.id && other.inventory_field() == field);
+    let named = |other: &ComponentInventory| {
+        let values = other.values.iter().map(|value| format!("{}/{}", other.id, value.id));
+        values.collect::<Vec<_>>()
+    };
+    let names: Vec<String> = others.flat_map(named).collect();
+    let candidates = |typed: &str| fitting_candidates(names.iter().map(String::as_str), typed);
+    let key = Id::unique(("same value", own.clone()));
+    if let Some(text) = show_line_with_completion(ui, seen, key, words::SAME_VALUE_AS, "", &candidates)
+        && !text.trim().is_empty()
+    {
+        out.request_work(recordings_jobs::equate_values_job(own, text.trim().to_owned()));
     }
 }
 

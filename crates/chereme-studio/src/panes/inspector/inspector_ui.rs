@@ -128,9 +128,7 @@ pub(super) fn show_thing_details(
         Some(Ok(ObjectDetails::Sign(sign))) => about::show_sign_details(it, ui, seen, &sign, out),
         Some(Ok(ObjectDetails::Signer(signer))) => signer_more(it, ui, seen, &signer, out),
         Some(Ok(ObjectDetails::Recording(recording))) => recording_more(ui, seen, &recording, out),
-        Some(Ok(ObjectDetails::Value(inventory, value, uses))) => {
-            about::show_inventory_value(it, ui, seen, inventory, &value, uses, out);
-        }
+        Some(Ok(ObjectDetails::Value(value))) => about::show_inventory_value(it, ui, seen, &value, out),
     }
 }
 

@@ -302,7 +302,13 @@ pub(super) fn of_inventory(
         .map(|stored| &stored.inventory)
         .filter(|inventory| inventory.component == component && inventory.feature.is_none())
         .collect();
-    let values = all.iter().flat_map(|inventory| &inventory.values);
+    let equal = &seen.snapshot.overview.equal_values;
+    let stands_alone =
+        |inventory: &ComponentInventory, id: &str| !equal.has_stand_in(all.iter().copied(), &inventory.id, id);
+    let values = all.iter().flat_map(|inventory| {
+        let values = inventory.values.iter();
+        values.filter(|value| stands_alone(inventory, &value.id))
+    });
     let candidates = |typed: &str| fitting_candidates(values.clone().map(|value| value.id.as_str()), typed);
     let about = |id: &str| inventory_value_name(values.clone().find(|value| value.id == id)?, seen);
     let line = CompletionLine {

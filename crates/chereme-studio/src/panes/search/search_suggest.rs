@@ -1,6 +1,6 @@
 //! Completions of a query: words of the language, values, names and glosses.
 
-use chereme_corpus::KeptSearch;
+use chereme_corpus::{KeptSearch, StoredInventory};
 use chereme_sign::query::{
     CursorCompletion, ExpectedText, MissingReason, TextField, WholeTokenProperty, complete_query,
 };
@@ -149,7 +149,14 @@ fn completion_value_offers(
             let fits = overview.inventories.iter().filter(|stored| {
                 stored.inventory.component == field.component && stored.inventory.feature == field.feature
             });
-            for value in fits.flat_map(|stored| &stored.inventory.values) {
+            let fits: Vec<&StoredInventory> = fits.collect();
+            let listed = || fits.iter().map(|stored| &stored.inventory);
+            let each = listed().flat_map(|inventory| inventory.values.iter().map(move |value| (inventory, value)));
+            for (inventory, value) in each {
+                // A value that is one with another is offered under the word that stands for both.
+                if overview.equal_values.has_stand_in(listed(), &inventory.id, &value.id) {
+                    continue;
+                }
                 let spellings: Vec<&str> = value.value_spellings().collect();
                 let name = value.value_name_in(language.language_code());
                 let about = if name == value.id { "" } else { name };
@@ -271,7 +278,7 @@ mod tests {
     use chereme_sign::query::TokenQuery;
 
     use super::*;
-    use chereme_corpus::{CorpusOverview, SignGlance, StoredInventory};
+    use chereme_corpus::{CorpusOverview, SignGlance};
     use std::sync::Arc;
 
     fn snapshot() -> CorpusSnapshot {
