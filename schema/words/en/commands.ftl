@@ -57,6 +57,7 @@ title-commands-origin = origin
 title-commands-partner = partner
 title-commands-phase = phase
 title-commands-recipe = recipe
+title-commands-corpus = corpus
 title-commands-recording = recording
 title-commands-seconds = seconds
 title-commands-sign = sign

@@ -112,6 +112,10 @@ noun-signers = { $count ->
     [one] signer
    *[other] signers
 }
+noun-corpora = { $count ->
+    [one] corpus
+   *[other] corpora
+}
 noun-lexicons = { $count ->
     [one] lexicon
    *[other] lexicons

@@ -57,6 +57,7 @@ title-commands-origin = origine
 title-commands-partner = partenaire
 title-commands-phase = phase
 title-commands-recipe = recette
+title-commands-corpus = corpus
 title-commands-recording = enregistrement
 title-commands-seconds = secondes
 title-commands-sign = signe

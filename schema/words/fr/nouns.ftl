@@ -112,6 +112,10 @@ noun-signers = { $count ->
     [one] signeur
    *[other] signeurs
 }
+noun-corpora = { $count ->
+    [one] corpus
+   *[other] corpus
+}
 noun-lexicons = { $count ->
     [one] lexique
    *[other] lexiques

@@ -1,14 +1,15 @@
 //! `chereme search`: finds the tokens that answer a query, counts them, and saves queries.
 
 use std::collections::BTreeSet;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 use chereme_corpus::{
     Corpus, CorpusError, FACET_VALUES, HitOpinion, HitOrder, KeptSearch, SearchHit, SearchOptions, TallyRow,
-    components_text,
+    ValueTally, components_text,
 };
 use clap::ValueEnum;
+use serde_json::json;
 
 use crate::args::CommandLine;
 use crate::output::{CommandOutput, with_progress_bar};
@@ -18,12 +19,15 @@ use crate::output::{CommandOutput, with_progress_bar};
 /// A query finds lexicon entries like captured tokens. Quote it for your shell, for example 'right.configuration=U
 /// placement=chin' or 'gloss:BO* not weak.configuration=S'. Any query can contain @NAME for a search that was saved
 /// with --keep NAME; `chereme list CORPUS searches` lists the saved ones.
+///
+/// Several corpora are asked one after another if their files stand before the query; hits name their corpus, and counts
+/// are added up.
 #[derive(Debug, clap::Args)]
 #[command(after_long_help = chereme_corpus::QUERY_HELP)]
 pub(crate) struct SearchArgs {
     /// The corpus
     corpus: PathBuf,
-    /// The query; all of its conditions must hold. @NAME stands for a saved search
+    /// The query; all of its conditions must hold. @NAME stands for a saved search. Further corpora stand before it
     #[arg(required_unless_present = "forget", value_name = "QUERY")]
     query: Vec<String>,
     /// Save the query in the corpus as @NAME
@@ -89,6 +93,10 @@ const TABLE_FACETS: usize = 8;
 const TABLE_ROWS: usize = 50;
 
 pub(super) fn run(cli: &CommandLine, args: &SearchArgs, output: &mut CommandOutput) -> Result<()> {
+    let further = args.query.iter().take_while(|word| is_corpus_file(word)).count();
+    if further > 0 {
+        return search_several_corpora(cli, args, further, output);
+    }
     let mut corpus = cli.open_cli_corpus(&args.corpus)?;
     if let Some(name) = &args.forget {
         let forgotten = corpus.forget_search(name)?;
@@ -98,12 +106,11 @@ pub(super) fn run(cli: &CommandLine, args: &SearchArgs, output: &mut CommandOutp
         )?;
         return output.set_json_document(forgotten);
     }
-    let fields: Vec<String> = match &args.count {
-        Some(field) => [field].into_iter().chain(&args.by).cloned().collect(),
-        None => args.cross.clone(),
-    };
+    let fields = args.counted_fields();
     if !fields.is_empty() {
-        return print_token_tally(&mut corpus, args, &fields, output);
+        let query = args.query.join(" ");
+        let tally = with_progress_bar(|progress| corpus.tally_values(&query, &fields, progress))?;
+        return print_token_tally(tally, args, output);
     }
     if args.table != TableFormat::Text {
         let error = CorpusError::from_wrong_message("there is no table to write");
@@ -178,14 +185,103 @@ pub(super) fn run(cli: &CommandLine, args: &SearchArgs, output: &mut CommandOutp
     output.set_json_document(answer)
 }
 
-/// Prints the number of tokens found for each value of one field, or for each pair of values of two.
-fn print_token_tally(
-    corpus: &mut Corpus,
+impl SearchArgs {
+    /// Returns the fields whose values are counted.
+    fn counted_fields(&self) -> Vec<String> {
+        match &self.count {
+            Some(field) => [field].into_iter().chain(&self.by).cloned().collect(),
+            None => self.cross.clone(),
+        }
+    }
+}
+
+/// Returns whether a word of a query is the file of a corpus.
+fn is_corpus_file(word: &str) -> bool {
+    Path::new(word).extension().is_some_and(|ending| ending == "chereme") && Path::new(word).is_file()
+}
+
+/// Asks several corpora the same, `further` of them named before the query, and shows their hits one after another, or
+/// their counts together.
+fn search_several_corpora(
+    cli: &CommandLine,
     args: &SearchArgs,
-    fields: &[String],
+    further: usize,
     output: &mut CommandOutput,
 ) -> Result<()> {
-    let tally = with_progress_bar(|progress| corpus.tally_values(&args.query.join(" "), fields, progress))?;
+    let (further, words) = args.query.split_at(further);
+    if args.keep.is_some() || args.offset > 0 || words.is_empty() {
+        let error =
+            CorpusError::from_wrong_message("several corpora are asked a query, and nothing is saved or skipped");
+        return Err(error
+            .with_advice("write a query after their files, and leave out --keep and --offset")
+            .into());
+    }
+    let (query, fields) = (words.join(" "), args.counted_fields());
+    let paths: Vec<&Path> = [args.corpus.as_path()]
+        .into_iter()
+        .chain(further.iter().map(Path::new))
+        .collect();
+    let mut sum: Option<ValueTally> = None;
+    let (mut total, mut rows, mut answers) = (0, Vec::new(), Vec::new());
+    for path in &paths {
+        let mut corpus = cli.open_cli_corpus(path)?;
+        if !fields.is_empty() {
+            let tally = with_progress_bar(|progress| corpus.tally_values(&query, &fields, progress))?;
+            match &mut sum {
+                Some(sum) => sum.add_tally(tally),
+                None => sum = Some(tally),
+            }
+            continue;
+        }
+        let limit = args.limit.or((!output.is_json()).then_some(TABLE_ROWS));
+        let options = SearchOptions {
+            limit: limit.map(|limit| limit.saturating_sub(rows.len())),
+            facets: !args.no_facets && output.is_json(),
+            facet_values: args.facets.unwrap_or(FACET_VALUES),
+            order: HitOrder::order_from_word(&args.sort),
+            ..SearchOptions::default()
+        };
+        let answer = corpus.search_tokens(&query, &options)?;
+        total += answer.total;
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        rows.extend(answer.hits.iter().map(|hit| {
+            let cells = search_hit_cells(hit, hit.lexicon.is_some(), options.order.order_attribute());
+            [name.clone()].into_iter().chain(cells).collect::<Vec<String>>()
+        }));
+        answers.push(json!({ "corpus": path, "answer": answer }));
+    }
+    if let Some(sum) = sum {
+        return print_token_tally(sum, args, output);
+    }
+    if !rows.is_empty() {
+        output.write_titled_table(
+            &[
+                "corpus",
+                "token",
+                "gloss",
+                "recording",
+                "start",
+                "length",
+                "origin",
+                "components",
+            ],
+            &rows,
+        )?;
+    }
+    output.filled_line(
+        "{n} tokens in {corpora}, {shown} shown: {query}",
+        &[
+            &total,
+            &output.format_counted_noun(paths.len() as u64, "corpora"),
+            &rows.len(),
+            &query,
+        ],
+    )?;
+    output.set_json_document(json!({ "query": query, "total": total, "corpora": answers }))
+}
+
+/// Prints the number of tokens found for each value of one field, or for each pair of values of two.
+fn print_token_tally(tally: ValueTally, args: &SearchArgs, output: &mut CommandOutput) -> Result<()> {
     let columns: Vec<&str> = match tally.columns.is_empty() {
         true => vec!["tokens"],
         false => tally.columns.iter().map(String::as_str).collect(),

@@ -1,5 +1,6 @@
 //! Frequency tables: the number of tokens found that have each value of one field, or of two.
 
+use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
 use chereme_sign::query::{TestSubject, TextField, TokenQuery, WholeTokenProperty};
@@ -55,6 +56,45 @@ pub struct TallyRow {
     /// How many of them have each value of the second field.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub counts: Vec<usize>,
+}
+
+impl ValueTally {
+    /// Adds the counts of another corpus for the same query and fields. Ranges of numbers stay those of each corpus.
+    pub fn add_tally(&mut self, other: Self) {
+        self.total += other.total;
+        let mut counts: BTreeMap<(String, String), usize> = BTreeMap::new();
+        let mut totals: [BTreeMap<String, usize>; 2] = Default::default();
+        for tally in [&*self, &other] {
+            for row in &tally.rows {
+                *totals[0].entry(row.value.clone()).or_default() += row.total;
+                for (column, count) in tally.columns.iter().zip(&row.counts) {
+                    *counts.entry((row.value.clone(), column.clone())).or_default() += count;
+                    *totals[1].entry(column.clone()).or_default() += count;
+                }
+            }
+        }
+        let [rows, columns] = totals.map(|totals| {
+            let mut ordered: Vec<(String, usize)> = totals.into_iter().collect();
+            let last = |value: &str| {
+                [NOT_APPLICABLE, UNCLEAR_TALLY_LABEL, NO_VALUE]
+                    .iter()
+                    .position(|word| *word == value)
+            };
+            // The sort is stable, so that equal counts stay in the order of their names.
+            ordered.sort_by_key(|(value, total)| (last(value).map(|place| place + 1), Reverse(*total)));
+            ordered
+        });
+        self.columns = columns.into_iter().map(|(column, _)| column).collect();
+        let row = |(value, total): (String, usize)| {
+            let count = |column: &String| counts.get(&(value.clone(), column.clone())).copied().unwrap_or(0);
+            TallyRow {
+                counts: self.columns.iter().map(count).collect(),
+                total,
+                value,
+            }
+        };
+        self.rows = rows.into_iter().map(row).collect();
+    }
 }
 
 impl Corpus {
