@@ -311,7 +311,7 @@ mod tests {
         let mut window = opened(&corpus_of_glosses(folder.path(), 0), Duration::ZERO);
         let mut quits = |modifiers| {
             let mut commands = Vec::new();
-            window.key_press_modifiers(modifiers, Key::Q);
+            window.input_mut().events.extend(pressed(modifiers, Key::Q));
             for _ in 0..3 {
                 window.step();
                 let viewports = window.output().viewport_output.values();
