@@ -87,8 +87,8 @@ pub(super) fn show_search_facets(
                 let name = facet_name(field, seen);
                 ui.label(RichText::new(name).small().weak());
                 let most = values.iter().map(|(_, count)| *count).max().unwrap_or(1);
-                let stored = find_facet_inventory(field, seen);
                 for (value, count) in values {
+                    let stored = find_facet_inventory(field, value, seen);
                     let drawn = DrawnFacetValue {
                         field,
                         stored,
@@ -190,14 +190,16 @@ fn show_facet_menu(seen: &PaneInput<'_>, response: &Response, thing: InspectedTh
     });
 }
 
-/// Returns the inventory with the values of a field.
-fn find_facet_inventory<'a>(field: &str, seen: &PaneInput<'a>) -> Option<&'a StoredInventory> {
+/// Returns the inventory of a field that has a value, otherwise the first of the field.
+fn find_facet_inventory<'a>(field: &str, value: &str, seen: &PaneInput<'a>) -> Option<&'a StoredInventory> {
     let field = field.parse::<ComponentField>().ok()?;
-    let mut all = seen.snapshot.overview.inventories.iter();
-    all.find(|stored| {
+    let all = seen.snapshot.overview.inventories.iter();
+    let of_field = all.filter(|stored| {
         let inventory = &stored.inventory;
         inventory.component == field.component && inventory.feature == field.feature
-    })
+    });
+    let has_value = |stored: &&StoredInventory| stored.inventory.value_by_id(value).is_some();
+    of_field.clone().find(has_value).or_else(|| of_field.clone().next())
 }
 
 /// A value of a facet as it is drawn.
