@@ -32,7 +32,7 @@ help-command-lexicon-compare-others = Compare it with the signs of other lexicon
 help-command-lexicon-import-into = The lexicon to which the signs of tables and notation belong; without it a table is one of its own, and notation belongs to the only one of the corpus
 help-command-lexicon-import-language = The sign language of that lexicon, as a code of ISO 639-3 such as dse
 help-command-lexicon-pairs-of-query = The tokens whose signs are compared, as in `chereme search`; without it the citation forms
-help-command-lexicon-entries-of-one-gloss = Several entries may have one gloss: BANK, BANK#2. A table keeps them apart by a column that identifies its rows, such as id, or by a column "homonym" with 1, 2 and so on. A bare gloss in an annotation means the first ("guessed_tokens" counts these); write BANK#2 for the second. sign:BANK#2 names it, gloss=BANK finds all.
+help-command-lexicon-entries-of-one-gloss = Several entries may have one gloss: BANK, BANK#2. A table keeps them apart by a column that identifies its rows, such as id, or by a column "homonym" with 1, 2 and so on. A bare gloss in an annotation means the first ("guessed_tokens" counts these); write BANK#2 for the second. sign:BANK#2 names it, gloss=BANK finds all. `annotate` and the window rename signs.
 help-command-lexicon-unite = Make lexicons one: entries, recordings and files belong to the one that stays; undo takes it back
 help-command-lexicon-same-entries = Entries are the same if their rows have the same id, otherwise by gloss and number. Both codings are kept, as two forms of one entry, and entries that differ are named. Lexicons that differ in language, version, terms or citation are refused.
 help-command-lexicon-that-go = The lexicons that go

@@ -195,9 +195,9 @@ impl SearchArgs {
     }
 }
 
-/// Returns whether a word of a query is the file of a corpus.
+/// Returns whether a word of a query names the file of a corpus, which need not exist: no sign is called so.
 fn is_corpus_file(word: &str) -> bool {
-    Path::new(word).extension().is_some_and(|ending| ending == "chereme") && Path::new(word).is_file()
+    Path::new(word).extension().is_some_and(|ending| ending == "chereme")
 }
 
 /// Asks several corpora the same, `further` of them named before the query, and shows their hits one after another, or
