@@ -211,8 +211,21 @@ pub(crate) const CASES: &[Case] = &[
         &["/total", "/hits/0/token"],
     ),
     ("search @c 'configuration=flat placement=chin'", 0, HITS),
-    ("search @c @c gloss=CHAT", 0, &["/query", "/total", "/corpora/0/corpus", "/corpora/1/answer/hits/0/token"]),
-    ("search @c @c '' --cross origin signer", 0, &["/total", "/columns/0", "/rows/0/counts/0"]),
+    (
+        "search @c @c gloss=CHAT",
+        0,
+        &[
+            "/query",
+            "/total",
+            "/corpora/0/corpus",
+            "/corpora/1/answer/hits/0/token",
+        ],
+    ),
+    (
+        "search @c @c '' --cross origin signer",
+        0,
+        &["/total", "/columns/0", "/rows/0/counts/0"],
+    ),
     ("search @c @c", 1, ERROR),
     ("search @c @c gloss=CHAT --keep cats", 1, ERROR),
     ("search @c 'handform=S'", 1, ERROR),

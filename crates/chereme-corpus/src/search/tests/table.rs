@@ -416,7 +416,10 @@ fn values_are_counted_by_one_field_and_by_two() {
     // Counts of two corpora stand together as if all tokens were in one.
     let mut sum = tally("signer=Ben", &["configuration", "signer"]).expect("counted");
     sum.add_tally(tally("not signer=Ben", &["configuration", "signer"]).expect("counted"));
-    assert_eq!((sum.total, &sum.columns, &sum.rows), (two.total, &two.columns, &two.rows));
+    assert_eq!(
+        (sum.total, &sum.columns, &sum.rows),
+        (two.total, &two.columns, &two.rows)
+    );
     for (fields, part) in [
         (&["nosuch"][..], "there is no field or attribute"),
         (&["duration"], "are not counted"),
