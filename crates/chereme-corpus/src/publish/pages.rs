@@ -54,7 +54,7 @@ pub(super) fn page_style() -> String {
 const CONTENT_SECURITY_POLICY: &str = "default-src 'none'; script-src 'self' file:; style-src 'self' file:; img-src 'self' file: data:; connect-src 'none'; worker-src 'self'; manifest-src 'self'; form-action 'none'; base-uri 'none'";
 
 /// The size of the still picture of a sign, in pixels.
-pub(super) const STILL_PICTURE_SIZE_PX: [usize; 2] = [320, 400];
+pub(super) const STILL_PICTURE_SIZE_PX: [usize; 2] = [240, 300];
 
 /// The most signs on one page of the list of all signs.
 const MAX_LIST_PAGE_SIGNS: usize = 400;
