@@ -83,7 +83,7 @@ pub(crate) fn are_other_rows(own: &EntryRowIds, other: &EntryRowIds) -> bool {
 pub(crate) enum EntryPlace {
     /// It is this sign there.
     Same(i64),
-    /// It is none there, and this number is free for it.
+    /// No sign there corresponds to it, and this number is free for it.
     Free(i64),
 }
 

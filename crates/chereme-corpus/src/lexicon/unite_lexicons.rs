@@ -141,7 +141,7 @@ fn unite_entry(connection: &Connection, sign: i64, kept: i64, report: &mut Unite
     };
     let new_label = signs::sign_label(connection, there)?;
     if signs::entry_number(connection, there)? != number {
-        // What annotations of the entry say would mean another one from now on.
+        // Annotations keep meaning this entry, whose number is another one from now on.
         edits::replace_gloss_values(connection, sign, &label, &new_label)?;
         report.renumbered.push(format!("{label} is {new_label}"));
     }

@@ -193,7 +193,7 @@ impl DictionaryBodies {
         let surface = publish_motion::body_surface_json(&portable);
         let text = format!("CH.body(\"{name}\", {surface});\n");
         folder.write_published_file(&format!("data/body/{name}.js"), text.as_bytes())?;
-        // Only signs with a face need it, and it is as large as the body.
+        // A file of its own, since signs with a face at rest do without it.
         let morphs = publish_motion::face_morphs_json(&body.face_morphs(&portable));
         let text = format!("CH.face(\"{name}\", {morphs});\n");
         folder.write_published_file(&format!("data/body/{name}-face.js"), text.as_bytes())?;

@@ -115,6 +115,11 @@ pub(super) fn collect_dictionary_entries(
             .filter(|token| token.recording_id.is_none())
             .map(|token| token.id)
             .collect();
+        // What a lexicon says beyond the shown values needs terms of its own.
+        let licensed_rows = tokens.iter().filter(|token| {
+            token.recording_id.is_none() && permissions.entry_publish_terms(token.lexicon.as_deref()).is_ok()
+        });
+        let licensed_tokens: Vec<i64> = licensed_rows.map(|token| token.id).collect();
         let (token, terms, movement) = match choose_shown_token(corpus, tokens, permissions)? {
             Ok(chosen) => chosen,
             Err(reason) => {
@@ -130,7 +135,8 @@ pub(super) fn collect_dictionary_entries(
             let next = people.len() + 1;
             *people.entry(id).or_insert(next)
         });
-        let own_tokens: Vec<i64> = [token.id].into_iter().chain(lexicon_tokens.iter().copied()).collect();
+        let licensed_tokens = licensed_tokens.into_iter().filter(|id| *id != token.id);
+        let own_tokens: Vec<i64> = [token.id].into_iter().chain(licensed_tokens).collect();
         let mut notated = None;
         for id in &own_tokens {
             notated = notation::notation_of_token(connection, *id)?;
@@ -153,16 +159,9 @@ pub(super) fn collect_dictionary_entries(
                     None => EntryMovement::Never,
                 }
             }
-            None => {
-                let mut tokens = [token.id].into_iter().chain(lexicon_tokens.iter().copied());
-                let notated = tokens.find_map(|id| match notations::find_token_notation(connection, id) {
-                    Ok(notation) => notation.map(|_| Ok(id)),
-                    Err(error) => Some(Err(error)),
-                });
-                notated
-                    .transpose()?
-                    .map_or(EntryMovement::Never, EntryMovement::Notated)
-            }
+            None => notated
+                .as_ref()
+                .map_or(EntryMovement::Never, |notated| EntryMovement::Notated(notated.token)),
         };
         let values = entry_values(connection, &token, &lexicon_tokens)?;
         let (texts, sentences) = entry_translations(connection, &token)?;

@@ -109,8 +109,8 @@ impl Corpus {
         self.evaluate_with_context(query, progress, &mut |ask, query| answer_query(ask, query, options))
     }
 
-    /// Returns the recordings that a query means: those with a token that it finds, or if all its conditions are about
-    /// recordings, their files, signers and what is said of these, also those without a token.
+    /// Returns the recordings that a query means: those with a token that it finds. If all its conditions are about
+    /// recordings, their files, their signers or attributes of signers, recordings without a token answer, too.
     ///
     /// # Errors
     /// Fails if the query cannot be read; [`CorpusError::Stopped`].

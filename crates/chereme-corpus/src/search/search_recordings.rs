@@ -74,7 +74,7 @@ fn said_of_recordings(connection: &Connection, test: &QueryTest) -> CorpusResult
     Ok(Some(said))
 }
 
-/// Returns whether what is said of a recording passes.
+/// Returns whether the fields of a recording pass.
 fn passes_test(test: &QueryTest, said: &[AttributeRow]) -> bool {
     let comparison = match &test.what {
         TestSubject::Attribute(_, wanted @ AttributeTest::Number(..)) => {

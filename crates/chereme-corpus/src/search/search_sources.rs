@@ -13,7 +13,7 @@ use super::search_plan::QueryPlan;
 use crate::db::stored_search::search_answers::{self, OpinionStanding, SaidValue};
 use crate::db::stored_search::search_terms;
 
-/// Returns the plan for the tokens of which somebody who is meant says a value that passes, whether it counts or not.
+/// Returns the plan for tokens with a passing value from one of the sources asked for, whether that value counts or not.
 ///
 /// # Errors
 /// Fails if the corpus has no such value or annotator.

@@ -1,4 +1,4 @@
-//! The elements of a file as a tree, of which a format takes what it knows.
+//! The elements of a file as a tree; a format takes the ones that it knows.
 
 use std::borrow::Cow;
 
@@ -9,7 +9,7 @@ use crate::finding::ImportFinding;
 use crate::tally::FindingTally;
 use crate::transcript::AnnotationTranscript;
 
-/// What is read of an element.
+/// The part of an element that a format reads.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum MarkupContents {
     /// Its elements; the text between them is reported.

@@ -203,7 +203,7 @@ pub enum TestSubject {
     /// hand or phase passes, for `!=` too.
     Component(ComponentField, ValueComparison),
     /// A component with who says so: `configuration=U{by=anna confidence>0.8}`. It holds if one value passes the comparison,
-    /// and what is known of this very value passes the tests of [`By`](WholeTokenProperty::By),
+    /// and the source, the standing and the confidence of this very value pass the tests of [`By`](WholeTokenProperty::By),
     /// [`Proposed`](WholeTokenProperty::Proposed), [`Disputed`](WholeTokenProperty::Disputed) and confidence.
     Said(ComponentField, ValueComparison, Vec<QueryTest>),
     /// A property of the token as a whole: `origin=made`.

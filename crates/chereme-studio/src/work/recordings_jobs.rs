@@ -57,7 +57,7 @@ pub(crate) fn unite_lexicons_job(from: String, into: String) -> CorpusJob {
     CorpusJob::new_change_job(move |corpus, progress| corpus.unite_lexicons(&[from], &into, progress))
 }
 
-/// Makes two values one, of which the second stands for the first.
+/// Makes two values one; the second stands for the first.
 pub(crate) fn equate_values_job(value: String, other: String) -> CorpusJob {
     CorpusJob::new_change_job(move |corpus, _| corpus.equate_values(&value, &other))
 }

@@ -249,7 +249,7 @@ impl LibraryPane {
         self.rows.recordings = rows;
     }
 
-    /// Lists the people; a click shows all that is known of one, where it can be changed.
+    /// Lists the people; a click shows one in the inspector, with everything about them to change.
     fn show_person_rows(&mut self, ui: &mut Ui, out: &mut CommandOutbox) {
         let rows = std::mem::take(&mut self.rows.people);
         let height = ui.spacing().interact_size.y * LIBRARY_ROW_HEIGHT;

@@ -244,7 +244,7 @@ fn paint_coded_figure(ui: &Ui, seen: &PaneInput<'_>, hit: &SearchHit, rect: Rect
     ui.painter().galley(text_rect.min, galley, weak);
 }
 
-/// Returns what is said of a hit and does not count, each with the reason.
+/// Returns the values of a hit that do not count, each with the reason.
 fn hit_opinions_text(hit: &SearchHit, seen: &PaneInput<'_>) -> Option<String> {
     let marked = hit.opinions.iter().map(|opinion| {
         let mark = match opinion.standing {
@@ -257,7 +257,7 @@ fn hit_opinions_text(hit: &SearchHit, seen: &PaneInput<'_>) -> Option<String> {
     (!texts.is_empty()).then(|| texts.join(" · "))
 }
 
-/// Paints what is said of a hit and does not count, on a ground that is hatched, as in the timeline, if a detector
+/// Paints the values of a hit that do not count, on a ground that is hatched, as in the timeline, if a detector
 /// proposes some of it.
 fn paint_hit_opinions(ui: &Ui, seen: &PaneInput<'_>, hit: &SearchHit, rect: Rect) {
     let Some(text) = hit_opinions_text(hit, seen) else {
