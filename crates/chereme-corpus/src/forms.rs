@@ -16,7 +16,7 @@ use crate::db::stored_recordings::{self, SourceFileRow};
 use crate::error::{CorpusError, CorpusResult};
 use crate::lexicon::{LexiconScope, keep_scope_rows};
 use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
-use crate::suggest;
+use crate::suggest::{self, CodingReader};
 
 /// The treatment of an empty cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
@@ -472,6 +472,7 @@ fn of_codings(
     }
     let tokens = keep_scope_rows(connection, scope, tokens, |token| token.sign_id)?;
     let all = tokens.len() as u64;
+    let reader = CodingReader::in_standing_words(corpus)?;
     let mut codings = Vec::new();
     let mut coded_tokens = Vec::new();
     for (done, token) in tokens.into_iter().enumerate() {
@@ -483,7 +484,7 @@ fn of_codings(
                 unit: ProgressUnit::Items,
             })?;
         }
-        let coding = corpus.coding_of(&token)?;
+        let coding = reader.coding_of(&token)?;
         // A sign without any coding has no form to compare.
         if !coding.is_empty() {
             codings.push((token.gloss, coding));

@@ -15,6 +15,7 @@ use crate::db::stored_contents::newest_operation_number;
 use crate::db::{damaged_row_error, stored_inventories as rows};
 use crate::error::CorpusResult;
 
+pub(crate) use equal_values::StandingWords;
 pub use equal_values::{EqualValues, ValueName};
 
 /// An inventory of the corpus with its row.

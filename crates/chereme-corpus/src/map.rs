@@ -17,7 +17,7 @@ use crate::error::{CorpusError, CorpusResult};
 use crate::inventories::{self, StoredInventory};
 use crate::lexicon::{LexiconScope, keep_scope_rows};
 use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
-use crate::suggest::single_values;
+use crate::suggest::{CodingReader, single_values};
 
 /// The signs of a map and the components that place them.
 #[derive(Debug, Clone, Default)]
@@ -94,8 +94,9 @@ impl Corpus {
         let mut numbers: HashMap<String, u32> = HashMap::new();
         let (mut placed, mut things) = (Vec::new(), Vec::new());
         let all = tokens.len();
+        let reader = CodingReader::in_standing_words(self)?;
         for token in tokens {
-            let coding = self.coding_of(&token)?;
+            let coding = reader.coding_of(&token)?;
             let features = coding_features(&coding, &components, &inventories, &mut numbers);
             // A sign that is coded for none of them has no place on the map.
             if !features.is_empty() {

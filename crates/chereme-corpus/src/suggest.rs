@@ -13,7 +13,7 @@ use crate::db::signs::{self, TokenRow, TokenValueRow};
 use crate::db::stored_columns::{RecordOrigin, ValueState};
 use crate::db::stored_recordings;
 use crate::error::{CorpusError, CorpusResult};
-use crate::inventories;
+use crate::inventories::{self, StandingWords};
 use crate::tokens::join_phase_values;
 
 /// Suggestions from a sign.
@@ -63,7 +63,7 @@ const LEAST_EQUAL: usize = 2;
 
 /// The values of a token by field, hands by their part in signing: `beak > 5` for successive values, `down + in` for
 /// simultaneous ones.
-type TokenCoding = BTreeMap<String, String>;
+pub(crate) type TokenCoding = BTreeMap<String, String>;
 
 impl Corpus {
     /// Returns suggestions for new signs from a token: signs of the corpus whose codings differ in one component, with
@@ -78,10 +78,10 @@ impl Corpus {
     pub fn suggest_new_signs(&self, address: &CorpusAddress, across: bool) -> CorpusResult<SignSuggestions> {
         let connection = self.store.read_connection();
         let token = address::find_addressed_token(connection, address)?;
-        let token_coding = coding_from_rows(
-            &signs::load_token_values(connection, token.id)?,
-            self.token_handedness(&token)?,
-        );
+        let own_words = CodingReader::in_own_words(self);
+        let compared_words = CodingReader::in_standing_words(self)?;
+        let token_coding = own_words.coding_of(&token)?;
+        let compared_coding = compared_words.coding_of(&token)?;
         if token_coding.len() < LEAST_EQUAL {
             return Err(CorpusError::from_wrong_message(format!(
                 "{} is coded for too few components to compare it with other signs: {}, and {LEAST_EQUAL} are needed",
@@ -103,18 +103,19 @@ impl Corpus {
             if other.sign_id == token.sign_id || !across && of_signs.get(&other.sign_id).is_some_and(is_elsewhere) {
                 continue;
             }
-            let theirs = coding_from_rows(
-                &signs::load_token_values(connection, other.id)?,
-                self.token_handedness(&other)?,
-            );
-            let (equal, different) = compare_codings(&token_coding, &theirs);
+            let theirs = compared_words.coding_of(&other)?;
+            let (equal, different) = compare_codings(&compared_coding, &theirs);
             if equal < LEAST_EQUAL || different.len() != 1 {
                 continue;
             }
             let field = different[0].clone();
-            let (from, to) = (token_coding[&field].clone(), theirs[&field].clone());
             // A value that a partner has is in use with the rest of this coding.
-            used.entry(field.clone()).or_default().insert(to.clone());
+            used.entry(field.clone()).or_default().insert(theirs[&field].clone());
+            let mut their_words = own_words.coding_of(&other)?;
+            let (from, to) = (
+                token_coding[&field].clone(),
+                their_words.remove(&field).unwrap_or_default(),
+            );
             let one_sided = token_coding.len() + theirs.len() - 2 * (equal + 1);
             let list = match one_sided {
                 0 => &mut partners,
@@ -135,7 +136,7 @@ impl Corpus {
         partners.sort_by(|a, b| (b.equal, &a.field, &a.gloss).cmp(&(a.equal, &b.field, &b.gloss)));
         let rank = |partner: &MinimalPairPartner| (partner.one_sided, usize::MAX - partner.equal);
         possible.sort_by(|a, b| (rank(a), &a.field, &a.gloss).cmp(&(rank(b), &b.field, &b.gloss)));
-        let unused = self.unused_field_values(&token_coding, &used)?;
+        let unused = self.unused_field_values(&token_coding, &used, &compared_words.standing_words)?;
         Ok(SignSuggestions {
             token: token.id,
             gloss: token.gloss,
@@ -144,21 +145,6 @@ impl Corpus {
             possible,
             unused,
         })
-    }
-
-    /// Returns the values of a token by field.
-    pub(crate) fn coding_of(&self, token: &TokenRow) -> CorpusResult<BTreeMap<String, String>> {
-        let values = signs::load_token_values(self.store.read_connection(), token.id)?;
-        self.coding_from_values(token, &values)
-    }
-
-    /// Returns values by field, with the hands as the token's signer uses them.
-    pub(crate) fn coding_from_values(
-        &self,
-        token: &TokenRow,
-        values: &[TokenValueRow],
-    ) -> CorpusResult<BTreeMap<String, String>> {
-        Ok(coding_from_rows(values, self.token_handedness(token)?))
     }
 
     fn token_handedness(&self, token: &TokenRow) -> CorpusResult<SignerHandedness> {
@@ -184,6 +170,7 @@ impl Corpus {
         &self,
         own: &TokenCoding,
         used: &BTreeMap<String, BTreeSet<String>>,
+        standing_words: &StandingWords,
     ) -> CorpusResult<BTreeMap<String, Vec<String>>> {
         let all = inventories::load_all_inventories(self.store.read_connection())?;
         let mut unused = BTreeMap::new();
@@ -198,12 +185,17 @@ impl Corpus {
                     && inventory.find_inventory_value(value).is_some()
             });
             let Some(inventory) = inventory else { continue };
-            let taken = used.get(name);
+            let part = (component, None);
+            let is_taken = |id: &str| {
+                let word = standing_words.standing_word(&part, id);
+                word == standing_words.standing_word(&part, value)
+                    || used.get(name).is_some_and(|taken| taken.contains(word))
+            };
             let free = inventory
                 .values
                 .iter()
                 .map(|value| &value.id)
-                .filter(|id| *id != value && !taken.is_some_and(|taken| taken.contains(*id)));
+                .filter(|id| !is_taken(id));
             unused.insert(name.to_owned(), free.cloned().collect());
         }
         Ok(unused)
@@ -222,7 +214,43 @@ pub(crate) fn coding_name(field: &ComponentField) -> String {
     format!("{hand}{}{part}", field.component)
 }
 
-fn coding_from_rows(rows: &[TokenValueRow], handedness: SignerHandedness) -> TokenCoding {
+/// Reads the values of tokens by field, with the hands as the token's signer uses them.
+pub(crate) struct CodingReader<'c> {
+    corpus: &'c Corpus,
+    standing_words: StandingWords,
+}
+
+impl<'c> CodingReader<'c> {
+    /// Reads values as they are coded.
+    fn in_own_words(corpus: &'c Corpus) -> Self {
+        Self {
+            corpus,
+            standing_words: StandingWords::default(),
+        }
+    }
+
+    /// Reads values in words that can be compared: of values that a person made one, that of the value that stands for them.
+    pub(crate) fn in_standing_words(corpus: &'c Corpus) -> CorpusResult<Self> {
+        Ok(Self {
+            corpus,
+            standing_words: StandingWords::load_standing_words(corpus.store.read_connection())?,
+        })
+    }
+
+    /// Returns the values of a token by field.
+    pub(crate) fn coding_of(&self, token: &TokenRow) -> CorpusResult<TokenCoding> {
+        let values = signs::load_token_values(self.corpus.store.read_connection(), token.id)?;
+        self.coding_from_values(token, &values)
+    }
+
+    /// Returns these values by field.
+    pub(crate) fn coding_from_values(&self, token: &TokenRow, values: &[TokenValueRow]) -> CorpusResult<TokenCoding> {
+        let handedness = self.corpus.token_handedness(token)?;
+        Ok(coding_from_rows(values, handedness, &self.standing_words))
+    }
+}
+
+fn coding_from_rows(rows: &[TokenValueRow], handedness: SignerHandedness, words: &StandingWords) -> TokenCoding {
     let mut values: BTreeMap<String, BTreeMap<Option<SignPhase>, Vec<&str>>> = BTreeMap::new();
     // An initial value that no final one follows is the only one.
     let ends_never = |row: &TokenValueRow| {
@@ -239,6 +267,8 @@ fn coding_from_rows(rows: &[TokenValueRow], handedness: SignerHandedness) -> Tok
         if row.component == SignComponent::NonManual || row.feature.as_deref() == Some("phase") {
             continue;
         }
+        let part = (row.component, row.feature.clone());
+        let word = words.standing_word(&part, value);
         let hand = row.hand.and_then(AnnotatedHands::single_hand);
         let weak = hand.is_some_and(|hand| hand.resolve_hand_ref(handedness) != handedness.signer_dominant_side());
         let both = row.hand == Some(AnnotatedHands::Both);
@@ -256,7 +286,7 @@ fn coding_from_rows(rows: &[TokenValueRow], handedness: SignerHandedness) -> Tok
         let mut add = |prefix: &str| {
             let field = format!("{prefix}{}{feature}", row.component);
             let phases = values.entry(field).or_default();
-            phases.entry(phase).or_default().push(value);
+            phases.entry(phase).or_default().push(word);
         };
         if weak {
             add("weak.");

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::{LeftOutSigns, PublishOptions};
+use chereme_corpus::{LeftOutPart, LeftOutSigns, PublishOptions};
 
 use super::lexicon_command::LexiconScopeArgs;
 use crate::args::CommandLine;
@@ -38,8 +38,8 @@ use crate::output::{CommandOutput, with_progress_bar};
 /// (handshapes without a picture), "namesakes" (handshapes with the picture of the usual one of that name), "armless"
 /// (signs whose movement has no arms to show), "cut" (signs whose movement is cut), "own_body", "apart" (signs with a touch
 /// that is lost on that body), "without_pairs" (whether there are too many minimal pairs), "animated" (signs that move by
-/// their notation), "unanimated" (those whose notation cannot be performed) and "left_out", each with "why", "movement"
-/// (whether only that was left out), "signs", "first" and "remedy".
+/// their notation), "unanimated" (those whose notation cannot be performed) and "left_out", each with "why", "part"
+/// ("sign", "movement", or "lexicon" for its words and values), "signs", "first" and "remedy".
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -158,9 +158,10 @@ fn print_left_out(it: &LeftOutSigns, output: &mut CommandOutput) -> Result<()> {
         first.push_str(", …");
     }
     let signs = output.format_counted_noun(it.signs as u64, "signs");
-    output.write_output_line(match it.movement {
-        true => format!("without movement: {signs} ({first}): {why}"),
-        false => format!("not published: {signs} ({first}): {why}"),
+    output.write_output_line(match it.part {
+        LeftOutPart::Sign => format!("not published: {signs} ({first}): {why}"),
+        LeftOutPart::Movement => format!("without movement: {signs} ({first}): {why}"),
+        LeftOutPart::Lexicon => format!("without words and values of their lexicon: {signs} ({first}): {why}"),
     })?;
     output.line_as_is(&format!("  {}", output.translate_message(it.remedy.remedy_text())))
 }

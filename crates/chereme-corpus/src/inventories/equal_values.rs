@@ -1,13 +1,13 @@
 //! Values of several inventories that are one: which, and the one of each group that stands for it.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::fmt;
 
-use chereme_sign::{ComponentInventory, InventoryValue};
+use chereme_sign::{ComponentInventory, InventoryValue, SignComponent};
 use rusqlite::Connection;
 use serde::{Serialize, Serializer};
 
-use super::StoredInventory;
+use super::{StoredInventory, load_all_inventories};
 use crate::db::stored_inventories as rows;
 use crate::error::CorpusResult;
 
@@ -123,5 +123,41 @@ impl EqualValues {
             Some((&stored.inventory, stored.inventory.value_by_id(&name.value)?))
         });
         standing.unwrap_or((inventory, value))
+    }
+}
+
+/// The words of values that a person says are one, each with the word of the value that stands for it.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct StandingWords(HashMap<(SignComponent, Option<String>), HashMap<String, String>>);
+
+impl StandingWords {
+    /// Reads the words of a corpus. An inventory with two of them as values of its own keeps them apart, so that a word is
+    /// enough to tell which group is meant.
+    pub(crate) fn load_standing_words(connection: &Connection) -> CorpusResult<Self> {
+        let equal = EqualValues::load_equal_values(connection)?;
+        let mut words = Self::default();
+        if equal.0.is_empty() {
+            return Ok(words);
+        }
+        for stored in load_all_inventories(connection)? {
+            let part = (stored.inventory.component, stored.inventory.feature.clone());
+            let names = equal
+                .0
+                .iter()
+                .flat_map(|group| group.iter().map(move |name| (name, &group[0])));
+            let own =
+                names.filter(|(name, standing)| name.inventory == stored.inventory.id && name.value != standing.value);
+            let own = own.map(|(name, standing)| (name.value.clone(), standing.value.clone()));
+            words.0.entry(part).or_default().extend(own);
+        }
+        Ok(words)
+    }
+
+    /// Returns the word that stands for a word of a component or of one of its features; as a rule itself.
+    pub(crate) fn standing_word<'w>(&'w self, part: &(SignComponent, Option<String>), word: &'w str) -> &'w str {
+        self.0
+            .get(part)
+            .and_then(|words| words.get(word))
+            .map_or(word, String::as_str)
     }
 }

@@ -23,6 +23,7 @@ use crate::notation;
 use crate::pairs;
 use crate::progress::ProgressReceiver;
 use crate::search::SearchOptions;
+use crate::suggest::CodingReader;
 
 use super::PublishOptions;
 use super::publish_names::unique_file_names;
@@ -85,6 +86,8 @@ pub(super) struct DictionaryEntries {
     pub(super) withheld: Vec<(String, WithheldReason)>,
     /// The signs whose movement was left out, with the reason.
     pub(super) still: Vec<(String, WithheldReason)>,
+    /// The signs that are shown without the words and values of their lexicon, with the reason.
+    pub(super) unlicensed: Vec<(String, WithheldReason)>,
     /// The number of signers.
     pub(super) people: usize,
     /// Whether there are too many minimal pairs to list them.
@@ -105,22 +108,15 @@ pub(super) fn collect_dictionary_entries(
         all: Vec::new(),
         withheld: Vec::new(),
         still: Vec::new(),
+        unlicensed: Vec::new(),
         people: 0,
         without_pairs: false,
     };
     let mut people: BTreeMap<(bool, i64), usize> = BTreeMap::new();
+    let reader = CodingReader::in_standing_words(corpus)?;
     for (gloss, tokens) in asked {
-        let lexicon_tokens: Vec<i64> = tokens
-            .iter()
-            .filter(|token| token.recording_id.is_none())
-            .map(|token| token.id)
-            .collect();
-        // What a lexicon says beyond the shown values needs terms of its own.
-        let licensed_rows = tokens.iter().filter(|token| {
-            token.recording_id.is_none() && permissions.entry_publish_terms(token.lexicon.as_deref()).is_ok()
-        });
-        let licensed_tokens: Vec<i64> = licensed_rows.map(|token| token.id).collect();
-        let (token, terms, movement) = match choose_shown_token(corpus, tokens, permissions)? {
+        let rows = LexiconRows::from_tokens(&tokens, permissions);
+        let (token, mut terms, movement) = match choose_shown_token(corpus, tokens, permissions)? {
             Ok(chosen) => chosen,
             Err(reason) => {
                 entries.withheld.push((gloss, reason));
@@ -135,8 +131,13 @@ pub(super) fn collect_dictionary_entries(
             let next = people.len() + 1;
             *people.entry(id).or_insert(next)
         });
-        let licensed_tokens = licensed_tokens.into_iter().filter(|id| *id != token.id);
-        let own_tokens: Vec<i64> = [token.id].into_iter().chain(licensed_tokens).collect();
+        // A page has the terms of all that it shows.
+        terms.extend(rows.terms);
+        if let Some(reason) = rows.withheld {
+            entries.unlicensed.push((gloss.clone(), reason));
+        }
+        let licensed_tokens = rows.licensed.iter().filter(|id| **id != token.id);
+        let own_tokens: Vec<i64> = [&token.id].into_iter().chain(licensed_tokens).copied().collect();
         let mut notated = None;
         for id in &own_tokens {
             notated = notation::notation_of_token(connection, *id)?;
@@ -145,7 +146,6 @@ pub(super) fn collect_dictionary_entries(
             }
         }
         let mut attributes = stored_attributes::of_tokens(connection, &own_tokens)?;
-        let mut terms = terms;
         let moves = match movement {
             Some(Ok(more)) => {
                 terms.extend(more);
@@ -163,8 +163,8 @@ pub(super) fn collect_dictionary_entries(
                 .as_ref()
                 .map_or(EntryMovement::Never, |notated| EntryMovement::Notated(notated.token)),
         };
-        let values = entry_values(connection, &token, &lexicon_tokens)?;
-        let (texts, sentences) = entry_translations(connection, &token)?;
+        let values = entry_values(connection, &token, &own_tokens)?;
+        let (texts, sentences) = entry_translations(connection, &token, rows.withheld.is_none())?;
         let remarks = edits::sign_gloss_and_notes(connection, token.sign_id)?.1;
         entries.all.push(DictionaryEntry {
             name: String::new(),
@@ -180,7 +180,7 @@ pub(super) fn collect_dictionary_entries(
                 .flatten()
                 .collect(),
             notes: remarks.filter(|_| options.notes),
-            coding: corpus.coding_from_values(&token, &values)?,
+            coding: reader.coding_from_values(&token, &values)?,
             values,
             source: match moves {
                 EntryMovement::Notated(_) => MovementSource::Notation,
@@ -200,9 +200,47 @@ pub(super) fn collect_dictionary_entries(
     Ok(entries)
 }
 
-/// Returns the words for a token's sign and the sentences in which the token is signed, each once.
-fn entry_translations(connection: &Connection, token: &TokenRow) -> CorpusResult<(EntryTexts, EntryTexts)> {
-    let mut words = signs::list_sign_translations(connection, token.sign_id)?;
+/// The rows of lexicons that describe a sign, as far as they may be published.
+struct LexiconRows {
+    /// Their tokens.
+    licensed: Vec<i64>,
+    /// The terms of their lexicons.
+    terms: BTreeSet<String>,
+    /// The reason if a row may not be published.
+    withheld: Option<WithheldReason>,
+}
+
+impl LexiconRows {
+    fn from_tokens(tokens: &[TokenRow], permissions: &PublishPermissions) -> Self {
+        let (mut licensed, mut terms, mut withheld) = (Vec::new(), BTreeSet::new(), None);
+        for token in tokens.iter().filter(|token| token.recording_id.is_none()) {
+            match permissions.entry_publish_terms(token.lexicon.as_deref()) {
+                Ok(more) => {
+                    licensed.push(token.id);
+                    terms.extend(more);
+                }
+                Err(reason) => withheld = Some(reason),
+            }
+        }
+        Self {
+            licensed,
+            terms,
+            withheld,
+        }
+    }
+}
+
+/// Returns the words for a token's sign, if those of its lexicon are public, and the sentences in which the token is
+/// signed, each once.
+fn entry_translations(
+    connection: &Connection,
+    token: &TokenRow,
+    with_lexicon: bool,
+) -> CorpusResult<(EntryTexts, EntryTexts)> {
+    let mut words = match with_lexicon {
+        true => signs::list_sign_translations(connection, token.sign_id)?,
+        false => EntryTexts::new(),
+    };
     let mut sentences = EntryTexts::new();
     for annotated in stored_spans::translations_over_token(connection, token.id)? {
         let texts = match annotated.other_signs {
@@ -339,11 +377,11 @@ fn choose_shown_token(
     Ok(best.ok_or(reason.unwrap_or(WithheldReason::NoTerms)))
 }
 
-/// Returns the values of a dictionary's entry by component: those that somebody coded, in the shown token or else in the
-/// lexicon, before those that notation implies.
-fn entry_values(connection: &Connection, token: &TokenRow, lexicon_tokens: &[i64]) -> CorpusResult<Vec<TokenValueRow>> {
+/// Returns the values of a dictionary's entry by component, from the shown token, which comes first, and its rows in
+/// lexicons: those that somebody coded before those that notation implies.
+fn entry_values(connection: &Connection, token: &TokenRow, own_tokens: &[i64]) -> CorpusResult<Vec<TokenValueRow>> {
     let mut sources = Vec::new();
-    for id in [token.id].into_iter().chain(lexicon_tokens.iter().copied()) {
+    for &id in own_tokens {
         let is_implied = notations::find_token_notation(connection, id)?.is_some()
             // A generated movement was made from values, so its own values are no observation.
             || id == token.id && token.origin == RecordOrigin::Generated;

@@ -117,13 +117,25 @@ pub struct PublishedDictionary {
     pub left_out: Vec<LeftOutSigns>,
 }
 
-/// Signs that were left out of a dictionary, or whose movement was.
+/// The part of a sign that was left out of a dictionary.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum LeftOutPart {
+    /// The whole sign.
+    Sign,
+    /// Its movement.
+    Movement,
+    /// The words and values of its lexicon.
+    Lexicon,
+}
+
+/// Signs that were left out of a dictionary, or of which a part was.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LeftOutSigns {
     /// The reason.
     pub why: WithheldReason,
-    /// Whether only the movement was left out.
-    pub movement: bool,
+    /// The part of them that was left out.
+    pub part: LeftOutPart,
     /// The number of signs.
     pub signs: usize,
     /// The glosses of the first ones.
@@ -446,15 +458,20 @@ fn licences(terms: &BTreeMap<String, usize>) -> String {
 }
 
 fn left_out(found: &DictionaryEntries) -> Vec<LeftOutSigns> {
-    let mut reasons: BTreeMap<(bool, WithheldReason), Vec<&String>> = BTreeMap::new();
-    for (list, movement) in [(&found.withheld, false), (&found.still, true)] {
+    let mut reasons: BTreeMap<(LeftOutPart, WithheldReason), Vec<&String>> = BTreeMap::new();
+    let lists = [
+        (LeftOutPart::Sign, &found.withheld),
+        (LeftOutPart::Movement, &found.still),
+        (LeftOutPart::Lexicon, &found.unlicensed),
+    ];
+    for (part, list) in lists {
         for (gloss, why) in list {
-            reasons.entry((movement, *why)).or_default().push(gloss);
+            reasons.entry((part, *why)).or_default().push(gloss);
         }
     }
-    let row = |((movement, why), glosses): ((bool, WithheldReason), Vec<&String>)| LeftOutSigns {
+    let row = |((part, why), glosses): ((LeftOutPart, WithheldReason), Vec<&String>)| LeftOutSigns {
         why,
-        movement,
+        part,
         signs: glosses.len(),
         first: glosses
             .iter()

@@ -79,10 +79,10 @@ fn nothing_is_published_that_nobody_agreed_to() {
     // Entries of the lexicon show nobody; their terms are enough.
     let done = publish(&mut corpus, &to, Some("CC0")).expect("published");
     assert!(done.signs > 3 && done.moving == 0 && done.signers == 0);
-    let left: Vec<(WithheldReason, bool)> = done.left_out.iter().map(|it| (it.why, it.movement)).collect();
+    let left: Vec<(WithheldReason, LeftOutPart)> = done.left_out.iter().map(|it| (it.why, it.part)).collect();
     // LIMACE is an entry, too; ESCARGOT and BOL are left out completely.
     let unknown = WithheldReason::ConsentUnknown;
-    assert_eq!(left, [(unknown, false), (unknown, true)]);
+    assert_eq!(left, [(unknown, LeftOutPart::Sign), (unknown, LeftOutPart::Movement)]);
     assert_eq!(done.left_out[1].first, ["LIMACE"]);
     assert!(holding(&files(&to), "escargot").is_empty());
 }
@@ -127,6 +127,54 @@ fn a_withdrawn_sign_leaves_no_trace_and_names_never_get_in() {
     let index = String::from_utf8(second["data/signs.js"].clone()).expect("text");
     assert!(!index.contains("\"BOL\"") && index.contains("\"ESCARGOT\""));
     assert!(second.len() < first.len());
+}
+
+#[test]
+fn words_and_values_of_a_lexicon_without_terms_stay_out() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let table = folder.path().join("secret.csv");
+    let header = "gloss,translation_en,symmetry,attribute.colour,hamnosys";
+    fs::write(
+        &table,
+        format!("{header}\nLIMACE,qzwordzq,alternating,qzcolourzq,hamfist hamextfingeru hampalml\n"),
+    )
+    .expect("written");
+    let mut corpus = corpus(folder.path());
+    let progress = &mut ignore_progress_step;
+    let options = crate::ImportOptions::default();
+    corpus
+        .import_paths(&[table], &options, &mut ProgressReceiver::new(progress))
+        .expect("imported");
+    consented(&mut corpus, "signer:Ada", ConsentAudience::Public);
+    let to = folder.path().join("site");
+    let limace = |to: &Path| {
+        let all = files(to);
+        let kept = |name: &str| name.starts_with("sign/LIMACE") || name == "data/signs.js";
+        let pages = all.iter().filter(|(name, _)| kept(name));
+        pages
+            .map(|(_, bytes)| String::from_utf8_lossy(bytes).into_owned())
+            .collect::<String>()
+    };
+    let words = ["qzwordzq", "qzcolourzq", "hamfist", "alternating"];
+    let done = publish(&mut corpus, &to, None).expect("published");
+    let withheld = done
+        .left_out
+        .iter()
+        .find(|left| left.part == LeftOutPart::Lexicon)
+        .expect("withheld");
+    assert_eq!(
+        (withheld.first.as_slice(), withheld.why),
+        (["LIMACE".to_owned()].as_slice(), WithheldReason::NoTerms)
+    );
+    for word in words {
+        assert!(!limace(&to).contains(word), "{word}");
+    }
+    let done = publish(&mut corpus, &to, Some("CC0")).expect("published");
+    assert!(done.left_out.is_empty());
+    let pages = limace(&to);
+    assert!(words[..2].iter().all(|word| pages.contains(word)), "{pages}");
+    // The page names the terms of the capture and of the lexicon.
+    assert!(pages.contains("CC0") && pages.contains("CC BY 4.0"));
 }
 
 #[test]

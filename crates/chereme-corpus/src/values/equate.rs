@@ -283,17 +283,20 @@ fn equal_reasons(all: &[StoredInventory], value: &InventoryValue, other: &Invent
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{ImportOptions, ProgressReceiver, SearchOptions};
+    use crate::lexicon::LexiconScope;
+    use crate::{ImportOptions, PairOptions, ProgressReceiver, SearchOptions};
 
     /// Makes a corpus with two tables that name one handshape in two ways; one keeps two more apart.
     fn corpus_of_words(folder: &std::path::Path) -> Corpus {
+        let one = "Gloss,Handshape\nA,palm-hand\nC,palm-hand\nD,claw-hand\n";
+        corpus_of_tables(folder, [one, "Gloss,Handshape\nE,surface\nF,hook\nG,hook\n"])
+    }
+
+    fn corpus_of_tables(folder: &std::path::Path, tables: [&str; 2]) -> Corpus {
         let mut corpus = Corpus::create_corpus(&folder.join("c.chereme"), "test").expect("made");
-        for (name, rows) in [
-            ("one.csv", "A,palm-hand\nC,palm-hand\nD,claw-hand\n"),
-            ("two.csv", "E,surface\nF,hook\nG,hook\n"),
-        ] {
+        for (name, table) in ["one.csv", "two.csv"].into_iter().zip(tables) {
             let path = folder.join(name);
-            std::fs::write(&path, format!("Gloss,Handshape\n{rows}")).expect("written");
+            std::fs::write(&path, table).expect("written");
             let imported = corpus.import_paths(
                 &[path],
                 &ImportOptions::default(),
@@ -390,6 +393,54 @@ mod tests {
         assert!(corpus.part_equal_value(&one("palm-hand")).is_err());
         corpus.undo_operation().expect("undone");
         assert_eq!(count(&mut corpus, "configuration=surface"), 3);
+    }
+
+    #[test]
+    fn signs_are_compared_by_the_words_that_stand_for_theirs() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let header = "Gloss,Handshape,Location,Movement direction\n";
+        let one = format!("{header}A,palm-hand,chin,up\nC,claw-hand,chin,up\n");
+        let two = format!("{header}E,surface,nose,up\nF,hook,ear,down\n");
+        let mut corpus = corpus_of_tables(folder.path(), [&one, &two]);
+        let compared = |corpus: &mut Corpus| {
+            let options = PairOptions {
+                fields: ["dominant.configuration", "placement", "movement.direction"]
+                    .map(str::to_owned)
+                    .to_vec(),
+                scope: LexiconScope::Across,
+                ..PairOptions::default()
+            };
+            let pairs = corpus
+                .minimal_pairs(&options, &mut ProgressReceiver::silent_progress())
+                .expect("pairs");
+            let pairs: Vec<String> = pairs
+                .list
+                .iter()
+                .map(|pair| format!("{} {} {}", pair.a, pair.b, pair.field))
+                .collect();
+            let suggested = corpus
+                .suggest_new_signs(&"sign:A".parse().expect("an address"), true)
+                .expect("suggestions");
+            let partners: Vec<[String; 3]> = suggested
+                .partners
+                .into_iter()
+                .map(|partner| [partner.gloss, partner.from, partner.to])
+                .collect();
+            (pairs, partners, suggested.coding["dominant.configuration"].clone())
+        };
+        let (pairs, partners, _) = compared(&mut corpus);
+        assert_eq!(pairs, ["A C dominant.configuration"]);
+        assert_eq!(partners, [["C", "palm-hand", "claw-hand"].map(str::to_owned)]);
+        corpus
+            .equate_values("one/configuration/palm-hand", "two/configuration/surface")
+            .expect("one");
+        let (pairs, partners, coding) = compared(&mut corpus);
+        assert_eq!(pairs, ["A C dominant.configuration", "A E placement"]);
+        assert_eq!(
+            partners,
+            [["C", "palm-hand", "claw-hand"], ["E", "chin", "nose"]].map(|row| row.map(str::to_owned))
+        );
+        assert_eq!(coding, "palm-hand", "a coding keeps its own word");
     }
 
     #[test]

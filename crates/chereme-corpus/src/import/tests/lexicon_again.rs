@@ -241,7 +241,8 @@ fn queries_know_initial_values_and_movements_that_are_none() {
         assert_eq!(total(&mut minor, query), wanted, "{query}");
     }
     let coded = crate::db::signs::load_citation_tokens(minor.store.read_connection()).expect("tokens");
-    let coded = coded.iter().map(|token| minor.coding_of(token).expect("a coding"));
+    let reader = crate::suggest::CodingReader::in_standing_words(&minor).expect("words");
+    let coded = coded.iter().map(|token| reader.coding_of(token).expect("a coding"));
     let coded: Vec<String> = coded.map(|it| it["placement.minor"].clone()).collect();
     assert_eq!(coded, ["Palm", "Palm > Wrist", "Chin > Palm"]);
     // Where only parts are coded, they count.
