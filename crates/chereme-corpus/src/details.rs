@@ -3,6 +3,7 @@
 use chereme_motion::anatomy::BodyMeasures;
 use chereme_sign::SignComponent;
 use rusqlite::Connection;
+use serde::Serialize;
 
 use crate::Corpus;
 use crate::address::{self, CorpusAddress, RowName};
@@ -12,6 +13,7 @@ use crate::db::signs::{self, TokenRow};
 use crate::db::stored_columns::{ValueState, phase_name};
 use crate::db::stored_recordings::{self, RecordingRow};
 use crate::db::stored_search::begin_reading;
+use crate::db::stored_search::search_answers::{self, OpinionStanding};
 use crate::db::stored_tracks::{self, TrackRow};
 use crate::db::{edits, notations, recipes};
 use crate::error::{CorpusError, CorpusResult};
@@ -55,6 +57,8 @@ pub struct TokenDetails {
     pub row: TokenRow,
     /// Its values.
     pub values: Vec<TokenValue>,
+    /// What detectors propose and annotators dispute; it does not count.
+    pub opinions: Vec<ValueOpinion>,
     /// Its HamNoSys, if it is notated.
     pub notation: Option<String>,
     /// The recipe of its recording, if that was generated.
@@ -80,6 +84,23 @@ pub struct TokenValue {
     pub inventory: Option<i64>,
     /// The annotation that gives the value.
     pub annotation: Option<i64>,
+}
+
+/// A proposal or a disputed value of a token; it does not count.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ValueOpinion {
+    /// The field, such as `right.configuration`.
+    pub field: String,
+    /// The value.
+    pub value: String,
+    /// Why it does not count.
+    pub standing: OpinionStanding,
+    /// The annotator, or `detector`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub by: Option<String>,
+    /// The confidence of the detector.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub confidence: Option<f64>,
 }
 
 /// Full details of a sign.
@@ -154,6 +175,15 @@ fn token_hamnosys_text(connection: &Connection, token: i64) -> CorpusResult<Opti
     Ok(Some(text).filter(|text| !text.is_empty()))
 }
 
+/// Returns the field of a value, such as `initial.right.placement`.
+fn value_field_name(row: &signs::TokenValueRow) -> String {
+    let hand = row.hand.map(|hand| format!("{hand}."));
+    let phase = row.phase.map(|phase| format!("{}.", phase_name(phase)));
+    let feature = row.feature.as_deref().map(|feature| format!(".{feature}"));
+    let [hand, phase, feature] = [hand, phase, feature].map(Option::unwrap_or_default);
+    format!("{phase}{hand}{}{feature}", row.component)
+}
+
 impl Corpus {
     /// Returns full details of a token.
     ///
@@ -162,21 +192,27 @@ impl Corpus {
     pub fn token_details(&self, address: &CorpusAddress) -> CorpusResult<TokenDetails> {
         let reading = begin_reading(self.store.read_connection())?;
         let row = address::find_addressed_token(&reading, address)?;
-        let value = |value_row: signs::TokenValueRow| {
-            let hand = value_row.hand.map(|hand| format!("{hand}."));
-            let phase = value_row.phase.map(|phase| format!("{}.", phase_name(phase)));
-            let feature = value_row.feature.as_deref().map(|feature| format!(".{feature}"));
-            let [hand, phase, feature] = [hand, phase, feature].map(Option::unwrap_or_default);
-            TokenValue {
-                field: format!("{phase}{hand}{}{feature}", value_row.component),
-                component: value_row.component,
-                state: value_row.state,
-                value: value_row.value,
-                inventory: value_row.inventory_id,
-                annotation: value_row.annotation_id,
-            }
+        let value = |value_row: signs::TokenValueRow| TokenValue {
+            field: value_field_name(&value_row),
+            component: value_row.component,
+            state: value_row.state,
+            value: value_row.value,
+            inventory: value_row.inventory_id,
+            annotation: value_row.annotation_id,
         };
         let values = signs::load_token_values(&reading, row.id)?;
+        let mut opinions = Vec::new();
+        for value_row in signs::load_token_opinions(&reading, row.id)? {
+            let annotation = value_row.annotation_id.unwrap_or_default();
+            let opinion = search_answers::opinion_of_annotation(&reading, annotation)?;
+            opinions.extend(opinion.map(|opinion| ValueOpinion {
+                field: value_field_name(&value_row),
+                value: opinion.state.missing_text().map_or(opinion.value, str::to_owned),
+                standing: opinion.standing,
+                by: opinion.by,
+                confidence: opinion.confidence,
+            }));
+        }
         let recipe = match row.recording_id {
             Some(recording) => recipes::find_recording_recipe(&reading, recording)?,
             None => None,
@@ -187,6 +223,7 @@ impl Corpus {
         };
         Ok(TokenDetails {
             values: values.into_iter().map(value).collect(),
+            opinions,
             notation: token_hamnosys_text(&reading, row.id)?,
             recipe: recipe.map(|recipe| recipe.text),
             made_from,

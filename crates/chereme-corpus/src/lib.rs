@@ -146,7 +146,7 @@ pub use db::stored_tiers::{TierRow, TierShown, proposed_for};
 pub use db::{OperationKind, OperationRow, SchemaUpgrade, on_waiting};
 pub use delete::{DeleteOptions, DeletedRecording, DeletionDependent, DeletionReport, DependentsPolicy};
 pub use details::{
-    ObjectDetails, RecordingDetails, SignDetails, SignerDetails, TokenDetails, TokenValue, ValueDetails,
+    ObjectDetails, RecordingDetails, SignDetails, SignerDetails, TokenDetails, TokenValue, ValueDetails, ValueOpinion,
 };
 pub use detect::{
     DetectOptions, DetectedIn, DetectionReport, DetectionUse, FaceProposals, GLOSSES_FROM_NAMES, ProposedAnnotation,
@@ -194,7 +194,7 @@ pub use report_finding::ReportFinding;
 pub use score::MovementScore;
 pub use search::saved_search::kept_like;
 pub use search::{
-    FACET_VALUES, FindingKind, HitOpinion, HitOrder, NO_VALUE, OpinionStanding, QueryFinding, SearchAnswer, SearchHit,
+    FACET_VALUES, FindingKind, HitOrder, NO_VALUE, OpinionStanding, QueryFinding, SearchAnswer, SearchHit,
     SearchOptions, TallyRow, ValueTally, guessed_query_text, meant_query_text,
 };
 pub use starter::{StarterSign, built_in_body, starter_files, starter_signs, unpack_starter};

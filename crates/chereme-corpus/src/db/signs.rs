@@ -566,6 +566,15 @@ pub(crate) fn load_values_and_opinions(connection: &Connection, token: i64) -> C
     Ok(rows)
 }
 
+/// Returns the opinions about a token, in the order in which they were written.
+pub(crate) fn load_token_opinions(connection: &Connection, token: i64) -> CorpusResult<Vec<TokenValueRow>> {
+    let sql =
+        format!("{SELECT_TOKEN_VALUES_SQL} FROM token_value WHERE token_id = ?1 AND {IS_OPINION_SQL} ORDER BY id");
+    let mut statement = connection.prepare_cached(&sql)?;
+    let rows = statement.query_map([token], value_row)?;
+    Ok(rows.collect::<rusqlite::Result<_>>()?)
+}
+
 const SELECT_TOKEN_VALUES_SQL: &str = "SELECT hand, component, feature, phase, position, state, value, inventory_id,
     annotation_id";
 

@@ -16,7 +16,8 @@ use super::search_finding::QueryFinding;
 use super::search_plan::{self, QueryPlan};
 use crate::db::stored_attributes::AttributeRow;
 use crate::db::stored_columns::{RecordOrigin, ValueState};
-use crate::db::stored_search::search_answers::{self, CodedRow, OpinionStanding};
+use crate::db::stored_search::search_answers::{self, CodedRow};
+use crate::details::ValueOpinion;
 
 /// The result of a query.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -83,24 +84,7 @@ pub struct SearchHit {
     pub components: BTreeMap<String, Value>,
     /// Proposals of detectors and disputed values, if the query asks for them: none of it counts.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub opinions: Vec<HitOpinion>,
-}
-
-/// A proposal or a disputed value of a token that was found; it does not count.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct HitOpinion {
-    /// The field, such as `right.configuration`.
-    pub field: String,
-    /// The value.
-    pub value: String,
-    /// Why it does not count.
-    pub standing: OpinionStanding,
-    /// The annotator, or `detector`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub by: Option<String>,
-    /// The confidence of the detector.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub confidence: Option<f64>,
+    pub opinions: Vec<ValueOpinion>,
 }
 
 /// The order in which tokens are shown.
@@ -367,7 +351,7 @@ pub(crate) fn collect_search_hits(
         let mut opinions = Vec::new();
         if ask.opinions.get() || ask.asks_sources.get() {
             search_answers::visit_token_opinions(ask.connection, token, |row, opinion| {
-                opinions.push(HitOpinion {
+                opinions.push(ValueOpinion {
                     field: field_of_row(row),
                     value: opinion.state.missing_text().unwrap_or(&opinion.value).to_owned(),
                     standing: opinion.standing,

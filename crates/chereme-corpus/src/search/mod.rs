@@ -47,7 +47,7 @@ use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
 
 pub use crate::db::stored_search::search_answers::OpinionStanding;
 use answer::DocumentRanks;
-pub use answer::{HitOpinion, HitOrder, SearchAnswer, SearchHit};
+pub use answer::{HitOrder, SearchAnswer, SearchHit};
 use compile::{QueryContext, QueryFailure, QueryResult};
 use index::{SearchIndex, catch_index_panic};
 use like::ExampleScores;

@@ -167,7 +167,7 @@ impl QueryFinding {
 }
 
 /// Returns a name in the spelling of queries.
-fn quote_finding_name(name: &str) -> String {
+pub(crate) fn quote_finding_name(name: &str) -> String {
     let bare = |letter: char| letter.is_alphanumeric() || "-_".contains(letter);
     if !name.is_empty() && name.chars().all(bare) {
         return name.to_owned();

@@ -10,12 +10,12 @@ use chereme_sign::text::fold_text;
 use super::compile::{QueryContext, QueryResult};
 use super::docs::DocumentList;
 use super::probe::{IndexProbe, IndexTextField, RowField};
-use super::search_finding::FindingKind;
+use super::search_finding::{FindingKind, quote_finding_name};
 use super::search_findings;
 use super::search_known::terms_matching_glob;
 use super::search_plan::{QueryPlan, WholeText};
 use super::search_texts::{TextGlob, split_folded_words};
-use crate::db::stored_search::search_answers;
+use crate::db::stored_search::search_answers::{self, NamedRowKind};
 use crate::db::stored_search::search_terms::TokenProperty;
 
 /// The longest word that is compared up to slips: the automaton grows with its length.
@@ -111,7 +111,14 @@ fn glosses_like(ask: &QueryContext<'_>, pattern: &TextPattern) -> QueryResult<Ve
     let text: String = pattern_text.chars().filter(|c| !"^$.*\\".contains(*c)).collect();
     let signs = ask.known_signs()?;
     let glosses = signs.rows.iter().map(|(_, gloss, _)| gloss.clone());
-    Ok(search_findings::similar_names(&text, &glosses.collect::<Vec<_>>()))
+    let mut names = search_findings::similar_names(&text, &glosses.collect::<Vec<_>>());
+    // BANK#2 names one of the signs whose gloss is BANK.
+    let labels = search_answers::list_row_names(ask.connection, NamedRowKind::Sign)?;
+    let is_label = |label: &String| fold_text(label) == fold_text(&text) && !names.contains(label);
+    if let Some((_, label)) = labels.iter().find(|(_, label)| is_label(label)) {
+        names.insert(0, format!("sign={}", quote_finding_name(label)));
+    }
+    Ok(names)
 }
 
 /// Returns glosses that resemble the only text of a test that finds nothing in glosses, or in any text.

@@ -1,7 +1,9 @@
 //! Opinions about a token: proposals of detectors, and what annotators say differently.
 
 use super::*;
-use crate::search::{HitOpinion, OpinionStanding};
+use crate::address::CorpusAddress;
+use crate::details::ValueOpinion;
+use crate::search::OpinionStanding;
 use crate::tokens;
 
 /// A tier of an annotator, with annotations of an origin in milliseconds.
@@ -161,13 +163,17 @@ fn proposals_count_only_where_they_are_asked_for() {
         assert_eq!(found.map_or(0, |answer| answer.total), total, "{query}");
     }
     let answer = sample.search("proposed:yes");
-    let opinion = HitOpinion {
+    let opinion = ValueOpinion {
         field: "right.placement".to_owned(),
         value: "chin".to_owned(),
         standing: OpinionStanding::Proposed,
         by: Some("detector".to_owned()),
         confidence: Some(0.9),
     };
+    let address: CorpusAddress = format!("token:{}", answer.hits[0].token).parse().expect("an address");
+    let details = sample.corpus.token_details(&address).expect("details");
+    assert_eq!(details.opinions, [opinion.clone()]);
+    assert!(details.values.iter().all(|value| value.field != "right.placement"));
     assert_eq!(answer.hits[0].opinions, [opinion]);
     assert!(!answer.facets.contains_key("right.placement"), "{:?}", answer.facets);
     assert_eq!(answer.facets["proposed"], [("yes".to_owned(), 1)]);

@@ -112,7 +112,7 @@ pub(super) fn show_inspector_choice<T: PartialEq + Clone>(
     ui.weak(seen.say_text(text));
     let shown = all.iter().find(|(other, _)| other == now).map_or("", |(_, name)| name);
     let mut value = now.clone();
-    let combo = ComboBox::from_id_salt(text.en).selected_text(shown).width(0.0);
+    let combo = ComboBox::from_id_salt(text.text_id()).selected_text(shown).width(0.0);
     let inner = combo.show_ui(ui, |ui| {
         for (it, name) in all {
             ui.selectable_value(&mut value, it.clone(), name);

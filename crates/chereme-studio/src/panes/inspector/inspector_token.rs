@@ -1,6 +1,6 @@
 //! The editable details of a token.
 
-use chereme_corpus::{CorpusAddress, TokenDetails};
+use chereme_corpus::{CorpusAddress, OpinionStanding, TokenDetails, ValueOpinion};
 use chereme_motion::{RecordingInstant, TimeSpan};
 use eframe::egui::{CollapsingHeader, Id, Label, RichText, Ui};
 
@@ -15,7 +15,7 @@ use crate::panes::longest_word;
 use crate::panes::recombine::recipe_of;
 use crate::panes::search::feature_text;
 use crate::pickers::pickers_hamnosys;
-use crate::words::inspector as words;
+use crate::words::{inspector as words, search_words};
 use crate::work::recordings_jobs;
 
 pub(super) fn show_token_details(
@@ -153,7 +153,7 @@ fn show_token_coding(
     out: &mut CommandOutbox,
 ) {
     let names = (ui.available_width() * 0.45).clamp(80.0, 190.0);
-    if token.values.is_empty() {
+    if token.values.is_empty() && token.opinions.is_empty() {
         ui.label("");
         ui.weak(seen.say_text(words::UNSET_ALL));
         ui.end_row();
@@ -190,4 +190,31 @@ fn show_token_coding(
         });
         ui.end_row();
     }
+    for opinion in &token.opinions {
+        ui.scope(|ui| {
+            ui.set_max_width(names);
+            ui.add(Label::new(RichText::new(field_name(seen, &opinion.field)).weak()).wrap());
+        });
+        ui.add(Label::new(RichText::new(opinion_text(seen, opinion)).italics()).wrap());
+        ui.end_row();
+    }
+}
+
+/// Returns a value that does not count, with the reason, its author and the confidence of a detector.
+fn opinion_text(seen: &PaneInput<'_>, opinion: &ValueOpinion) -> String {
+    let standing = seen.say_text(match opinion.standing {
+        OpinionStanding::Proposed => search_words::PROPOSED,
+        OpinionStanding::Disputed => search_words::DISPUTED,
+    });
+    let confidence = opinion.confidence.map(|share| format!("{share:.2}"));
+    let author = opinion
+        .by
+        .clone()
+        .filter(|_| opinion.standing == OpinionStanding::Disputed);
+    let reasons: Vec<String> = [standing.to_owned()]
+        .into_iter()
+        .chain(author)
+        .chain(confidence)
+        .collect();
+    format!("{} ({})", opinion.value, reasons.join(", "))
 }

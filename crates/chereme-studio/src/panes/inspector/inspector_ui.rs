@@ -42,7 +42,7 @@ fn show_inspector_part(
     let room = ui.available_width() - 24.0;
     let title = title.into_galley(ui, Some(TextWrapMode::Truncate), room, TextStyle::Button);
     CollapsingHeader::new(title)
-        .id_salt(text.en)
+        .id_salt(text.text_id())
         .default_open(open)
         .show(ui, content);
 }

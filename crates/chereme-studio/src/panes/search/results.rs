@@ -1,6 +1,6 @@
 //! Hits as looping little figures, and as a table with their neighbours.
 
-use chereme_corpus::{HitOpinion, OpinionStanding, SearchHit, TrackKind};
+use chereme_corpus::{OpinionStanding, SearchHit, TrackKind, ValueOpinion};
 use chereme_motion::BodySide;
 use eframe::egui::text::{LayoutJob, TextWrapping};
 use eframe::egui::{
@@ -265,7 +265,7 @@ fn paint_hit_opinions(ui: &Ui, seen: &PaneInput<'_>, hit: &SearchHit, rect: Rect
     };
     let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
     painter.rect_filled(rect, 3.0, ui.visuals().extreme_bg_color);
-    let is_proposal = |opinion: &HitOpinion| opinion.standing == OpinionStanding::Proposed;
+    let is_proposal = |opinion: &ValueOpinion| opinion.standing == OpinionStanding::Proposed;
     if hit.opinions.iter().any(is_proposal) {
         hatch_proposal(&painter, rect, seen.pane_colours().component.gamma_multiply(0.55));
     }
