@@ -108,6 +108,7 @@ pub(super) fn import_lexicon(job: &mut ImportJob<'_>, progress: &mut ProgressRec
         }
     }
     signs.leave_emptied(job)?;
+    report.findings.extend(signs.further_forms_finding());
     report.findings.extend(signs.homonyms_finding());
     report.findings.extend(signs.earlier.row_id_finding());
     report.findings.extend(signs.earlier.missing_entries_finding());
@@ -271,6 +272,8 @@ struct LexiconSigns {
     earlier: EarlierEntries,
     /// The signs that lost an entry to another gloss, with the cells of its row.
     left: BTreeMap<i64, BTreeSet<String>>,
+    /// The rows that are forms of a sign with another row, each with its line.
+    further_forms: Vec<String>,
 }
 
 /// Lexicon and gloss of an entry, and its number among those of the gloss if something keeps them apart.
@@ -330,7 +333,10 @@ impl LexiconSigns {
             None => self.number_of_entry(job, (lexicon, &gloss), earlier)?,
         };
         let id = match self.known.entry((lexicon, gloss, number)) {
-            Entry::Occupied(known) => *known.get(),
+            Entry::Occupied(known) => {
+                self.further_forms.push(format!("{}, line {}", row.gloss, row.line));
+                *known.get()
+            }
             Entry::Vacant(new) => {
                 let sign = match number {
                     Some(number) => signs::enter_homonym(job.connection, lexicon, &row.gloss, number)?,
@@ -379,6 +385,23 @@ impl LexiconSigns {
     }
 
     /// Returns a finding about the glosses that several entries have.
+    fn further_forms_finding(&self) -> Option<ReportFinding> {
+        let list = self.further_forms.iter().take(SHOWN_NAMES).map(String::as_str);
+        let list = list.collect::<Vec<_>>().join("; ");
+        (!list.is_empty()).then(|| {
+            let count = self.further_forms.len();
+            let message = format!(
+                "rows that are forms of a sign with another row, as nothing keeps them apart: {count} ({list})"
+            );
+            let remedy =
+                "if they are signs of their own, add a column \"homonym\" with 1, 2 and so on, or a column \"id\" whose cells do more than number the rows";
+            ReportFinding {
+                remedy: Some(remedy.into()),
+                ..ReportFinding::finding_note(message)
+            }
+        })
+    }
+
     fn homonyms_finding(&self) -> Option<ReportFinding> {
         let numbered = self.known.keys().filter(|(_, _, number)| *number > Some(1));
         let labels = numbered.map(|(_, gloss, number)| format!("{gloss}#{}", number.unwrap_or_default()));

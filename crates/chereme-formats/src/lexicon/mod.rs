@@ -210,7 +210,6 @@ fn interpret(
         needed: "a gloss",
         remedy: "call a column \"gloss\", or name it in a mapping: {\"columns\": {\"NAME\": \"gloss\"}}",
     })?;
-    let mut lines: BTreeMap<String, u64> = BTreeMap::new();
     let mut empty = EmptyCells::default();
     let mut entries: Vec<LexiconEntry> = Vec::with_capacity(table.rows.len());
     let mut stand_ins: BTreeMap<usize, (u64, u64)> = BTreeMap::new();
@@ -225,20 +224,6 @@ fn interpret(
         };
         if at != gloss {
             stand_ins.entry(at).or_insert((0, line)).0 += 1;
-        }
-        let name = row.cells[at].trim();
-        let first = *lines.entry(name.to_owned()).or_insert(line);
-        if first != line {
-            findings.add_limited_finding("glosses given twice", || {
-                ImportFinding::new_note_finding(
-                    line,
-                    format!(
-                        "the gloss {name:?} stands in line {first} too; unless ids or numbers keep the rows apart, \
-                         they are forms of one sign"
-                    ),
-                )
-                .with_remedy("if these are two signs, add a column \"homonym\" with 1, 2 and so on, or a column \"id\"")
-            });
         }
         let garbled = |(column, cell): (&LexiconColumn, &String)| {
             column.meaning == LexiconColumnMeaning::Notation && repair_garbled_symbols(cell).is_some()

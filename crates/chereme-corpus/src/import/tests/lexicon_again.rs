@@ -312,6 +312,14 @@ fn rows_of_one_gloss_with_ids_are_entries_of_their_own() {
     let table = desk.file("t.csv", &format!("{head}\n77,BANK,B\n12,BANK,5\n31,CHAT,A\n"));
     let report = import(&mut corpus, &table, "{}");
     assert!(messages(&report).contains("BANK#2"), "{}", messages(&report));
+    assert!(!messages(&report).contains("nothing keeps them apart"));
+    let mut without_ids = desk.corpus("e.chereme");
+    let joined = import(
+        &mut without_ids,
+        &desk.file("e.csv", "Gloss,Handshape\nBANK,B\nBANK,5\n"),
+        "{}",
+    );
+    assert!(messages(&joined).contains("nothing keeps them apart: 1 (BANK, line 3)"));
     assert_eq!(labels(&corpus), ["BANK", "BANK#2", "CHAT"]);
     assert_eq!(pairs(&mut corpus, &["Handshape"]), (3, 3));
     let take = eaf(&[("Gloss", 0, 500, "BANK"), ("Gloss2", 600, 900, "BANK#2")]);
@@ -335,6 +343,14 @@ fn rows_of_one_gloss_with_ids_are_entries_of_their_own() {
     ] {
         assert_eq!(total(&mut corpus, query), wanted, "{query}");
     }
+    let answer = corpus
+        .search_tokens("gloss=BANK#2", &SearchOptions::default())
+        .expect("an answer");
+    let hint = answer.findings[0].finding_message();
+    assert!(
+        answer.total == 0 && hint.contains("there are: sign=\"BANK#2\""),
+        "{hint}"
+    );
     let details = |corpus: &Corpus, name: &str| corpus.sign_details(&RowName::Text(name.to_owned()));
     let ambiguous = details(&corpus, "BANK").expect_err("two entries").to_string();
     assert!(
