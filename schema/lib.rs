@@ -31,6 +31,37 @@ pub const fn starter_text(name: &str) -> &'static str {
     text_below("corpus/", name)
 }
 
+/// Returns modules in Rust with a constant for each text of the English files `PREFIX-PART.ftl`: of the phrase
+/// `window-shell-close` in `window-shell.ftl` the constant `shell::CLOSE`. A build script includes them in a crate whose
+/// module `words` has the type of texts; `visibility` is that of the constants. A name without a phrase does not compile.
+#[must_use]
+pub fn declare_text_constants(prefix: &str, visibility: &str) -> String {
+    let mut modules = String::new();
+    for (path, words) in files_below("schema/words/en") {
+        let part = path.strip_prefix(prefix).and_then(|name| name.strip_suffix(".ftl"));
+        let Some(part) = part.and_then(|name| name.strip_prefix('-')) else {
+            continue;
+        };
+        let start = format!("{prefix}-{part}-");
+        let constants: String = words
+            .lines()
+            .filter_map(|line| {
+                let (id, text) = line.split_once(" =")?;
+                let text = text.trim();
+                let name = id.strip_prefix(&start)?.to_uppercase().replace('-', "_");
+                Some(format!(
+                    "#[doc = {text:?}] {visibility} const {name}: InterfaceText = InterfaceText::from_id({id:?});\n"
+                ))
+            })
+            .collect();
+        let module = part.replace('-', "_");
+        modules.push_str(&format!(
+            "/// Texts of the files `{path}`.\npub(crate) mod {module} {{ use crate::words::InterfaceText;\n{constants}}}\n"
+        ));
+    }
+    modules
+}
+
 const fn text_below(folder: &str, name: &str) -> &'static str {
     let mut index = 0;
     while index < SCHEMA_FILES.len() {

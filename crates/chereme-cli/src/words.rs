@@ -52,12 +52,7 @@ Utilisation : {usage}
 
 /// Returns the help of an option that takes the role of a tier.
 pub(crate) fn tier_roles_help(language: InterfaceLanguage) -> String {
-    let help = InterfaceText::new(
-        "The subject of its annotations: {roles}, or a component such as right.placement or nonmanual.brows; the word \
-         before the dot is their hand",
-        "L’objet de ses annotations : {roles}, ou un composant comme right.placement ou nonmanual.brows ; le mot avant \
-         le point est leur main",
-    );
+    let help = InterfaceText::from_id("tier-role-help");
     fill_text_braces(help.text_in_language(language), &[("roles", &TierRole::plain_kinds())])
 }
 

@@ -102,50 +102,32 @@ impl<'de> Deserialize<'de> for InterfaceLanguage {
     }
 }
 
-/// A text for people: its words in English and French, or its id in the folders of words.
+/// A text for people, by its id in the folders of words.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct InterfaceText {
-    /// In English; the id, if the words lie in folders.
-    pub en: &'static str,
-    /// In French; the id, if the words lie in folders.
-    pub fr: &'static str,
-    lies_in_folders: bool,
+    id: &'static str,
 }
 
 impl InterfaceText {
-    /// Creates a text from its English and its French words.
-    #[must_use]
-    pub const fn new(en: &'static str, fr: &'static str) -> Self {
-        Self {
-            en,
-            fr,
-            lies_in_folders: false,
-        }
-    }
-
     /// Creates a text from its id in the folders of words. Letters of the id are lowered, and dots and underscores are hyphens.
     #[must_use]
     pub const fn from_id(id: &'static str) -> Self {
-        Self {
-            en: id,
-            fr: id,
-            lies_in_folders: true,
-        }
+        Self { id }
+    }
+
+    /// Returns the id.
+    #[must_use]
+    pub const fn text_id(self) -> &'static str {
+        self.id
     }
 
     /// Returns the words in `language`; words that it lacks are English, and an id without words stays.
     #[must_use]
     pub fn text_in_language(self, language: InterfaceLanguage) -> &'static str {
-        match language {
-            _ if self.lies_in_folders => {
-                // Most ids are written as in their files, and windows ask for hundreds of them in each frame.
-                let lowered = || self.en.to_lowercase().replace(['.', '_'], "-");
-                let words = phrase_text(self.en, language).or_else(|| phrase_text(&lowered(), language));
-                words.unwrap_or(self.en)
-            }
-            InterfaceLanguage::French => self.fr,
-            InterfaceLanguage::English | InterfaceLanguage::Other(_) => self.en,
-        }
+        // Most ids are written as in their files, and windows ask for hundreds of them in each frame.
+        let lowered = || self.id.to_lowercase().replace(['.', '_'], "-");
+        let words = phrase_text(self.id, language).or_else(|| phrase_text(&lowered(), language));
+        words.unwrap_or(self.id)
     }
 }
 
@@ -178,10 +160,6 @@ mod tests {
             InterfaceLanguage::Other("tlh"),
         ];
         assert_eq!(languages.map(|language| undo.text_in_language(language)), others);
-        assert_eq!(
-            InterfaceText::new("a", "b").text_in_language(InterfaceLanguage::Other("tlh")),
-            "a"
-        );
         assert_eq!(
             InterfaceText::from_id("menu-none").text_in_language(InterfaceLanguage::French),
             "menu-none"

@@ -148,3 +148,17 @@ message-operator-legs-curve-given-keep-one-them = legs and a curve are given: ke
 message-operator-only-curve-has-time-each-leg-has = only a curve has a time; each leg has its own, such as left 5cm in 0.2s
 message-operator-curve-has-more-than-64-points = the curve has more than 64 points
 message-operator-curve-cm = a curve of { $cm } cm ({ $what })
+
+operator-setting-hand = Hand
+operator-setting-transition = Transition
+operator-setting-times = How often
+operator-setting-scale = size
+operator-setting-tempo = tempo
+operator-setting-gap = gap
+operator-setting-from-sign = from sign
+operator-setting-copied-from = copied from the
+operator-setting-from-spot = from
+operator-setting-to-spot = to
+operator-setting-from-time = from
+operator-setting-to-time = to
+operator-setting-size = Size

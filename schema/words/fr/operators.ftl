@@ -148,3 +148,17 @@ message-operator-legs-curve-given-keep-one-them = des segments et une courbe son
 message-operator-only-curve-has-time-each-leg-has = seule une courbe a un temps ; chaque segment a le sien, comme left 5cm in 0.2s
 message-operator-curve-has-more-than-64-points = la courbe a plus de 64 points
 message-operator-curve-cm = une courbe de { $cm } cm ({ $what })
+
+operator-setting-hand = Main
+operator-setting-transition = Transition
+operator-setting-times = Combien de fois
+operator-setting-scale = taille
+operator-setting-tempo = tempo
+operator-setting-gap = pause
+operator-setting-from-sign = du signe
+operator-setting-copied-from = copié de la
+operator-setting-from-spot = de
+operator-setting-to-spot = à
+operator-setting-from-time = à partir de
+operator-setting-to-time = jusqu’à
+operator-setting-size = Ampleur

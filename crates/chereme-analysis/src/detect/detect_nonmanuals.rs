@@ -19,23 +19,11 @@ impl AnnotationDetector for NonmanualDetector {
 
     fn detector_description(&self) -> &'static DetectorDescription {
         const NONMANUAL_DESCRIPTION: DetectorDescription = DetectorDescription {
-            finds: InterfaceText::new(
-                "actions of brows, lids, gaze, mouth and head, from the curves of the face",
-                "actions des sourcils, des paupières, du regard, de la bouche et de la tête, d’après les courbes du visage",
-            ),
+            finds: InterfaceText::from_id("detector-nonmanuals-finds"),
             messages: &[
-                InterfaceText::new(
-                    "{peak} above the median; {threshold} is enough, for less than {time} s",
-                    "{peak} au-dessus de la médiane ; {threshold} suffit, pendant moins de {time} s",
-                ),
-                InterfaceText::new(
-                    "{peak} above the median; {threshold} is enough",
-                    "{peak} au-dessus de la médiane ; {threshold} suffit",
-                ),
-                InterfaceText::new(
-                    "{count} half swings of {mean} degrees; {fewest} of {least} are enough",
-                    "{count} demi-balancements de {mean} degrés ; {fewest} de {least} suffisent",
-                ),
+                InterfaceText::from_id("detector-nonmanuals-shorter"),
+                InterfaceText::from_id("detector-nonmanuals-above"),
+                InterfaceText::from_id("detector-nonmanuals-swings"),
             ],
         };
         &NONMANUAL_DESCRIPTION

@@ -1,7 +1,7 @@
 //! The detector of signs, and of the phases of each hand.
 
 use chereme_motion::BodySide;
-use chereme_sign::words::InterfaceText;
+use chereme_sign::words::{InterfaceLanguage, InterfaceText};
 use chereme_sign::{ComponentField, SignComponent};
 
 use super::{AnnotationDetector, DetectedStretch, DetectedSubject, DetectorDescription, ObservedSigner, SignerPart};
@@ -18,26 +18,11 @@ pub struct SignDetector {
     pub sign_cost: Option<f64>,
 }
 
-const PEELED_SIGN_TEXT: InterfaceText = InterfaceText::new(
-    "the only sign between two rests, by the {side} hand",
-    "seul signe entre deux repos, de la main {side}",
-);
-const PEELED_BY_BOTH_TEXT: InterfaceText = InterfaceText::new(
-    "the only sign between two rests, by both hands; the {side} hand leads",
-    "seul signe entre deux repos, des deux mains ; la main {side} mène",
-);
-const DECODED_SIGN_TEXT: InterfaceText = InterfaceText::new(
-    "one of several signs between two rests, by the {side} hand",
-    "un de plusieurs signes entre deux repos, de la main {side}",
-);
-const DECODED_BY_BOTH_TEXT: InterfaceText = InterfaceText::new(
-    "one of several signs between two rests, by both hands; the {side} hand leads",
-    "un de plusieurs signes entre deux repos, des deux mains ; la main {side} mène",
-);
-const SIGN_PHASE_TEXT: InterfaceText = InterfaceText::new(
-    "part of the sign that this hand makes",
-    "partie du signe que fait cette main",
-);
+const PEELED_SIGN_TEXT: InterfaceText = InterfaceText::from_id("detector-signs-peeled");
+const PEELED_BY_BOTH_TEXT: InterfaceText = InterfaceText::from_id("detector-signs-peeled-by-both");
+const DECODED_SIGN_TEXT: InterfaceText = InterfaceText::from_id("detector-signs-decoded");
+const DECODED_BY_BOTH_TEXT: InterfaceText = InterfaceText::from_id("detector-signs-decoded-by-both");
+const SIGN_PHASE_TEXT: InterfaceText = InterfaceText::from_id("detector-signs-phase");
 
 impl AnnotationDetector for SignDetector {
     fn detector_name(&self) -> &'static str {
@@ -46,10 +31,7 @@ impl AnnotationDetector for SignDetector {
 
     fn detector_description(&self) -> &'static DetectorDescription {
         const SIGN_DESCRIPTION: DetectorDescription = DetectorDescription {
-            finds: InterfaceText::new(
-                "signs, and the preparation, stroke, hold and retraction of each hand",
-                "signes, et préparation, noyau, tenue et rétraction de chaque main",
-            ),
+            finds: InterfaceText::from_id("detector-signs-finds"),
             messages: &[
                 DECODED_BY_BOTH_TEXT,
                 DECODED_SIGN_TEXT,
@@ -92,7 +74,9 @@ impl AnnotationDetector for SignDetector {
                 subject: DetectedSubject::Sign,
                 value: UNKNOWN_GLOSS.to_owned(),
                 confidence: sign.confidence,
-                why: why.en.replace("{side}", sign.dominant.body_side_name()),
+                why: why
+                    .text_in_language(InterfaceLanguage::English)
+                    .replace("{side}", sign.dominant.body_side_name()),
             });
         }
         for (side, hand_phases) in BodySide::BOTH_SIDES.into_iter().zip(phases) {
@@ -101,7 +85,7 @@ impl AnnotationDetector for SignDetector {
                 subject: DetectedSubject::Field(phase_field(side)),
                 value: phase.kind.phase_name().to_owned(),
                 confidence: phase.confidence,
-                why: SIGN_PHASE_TEXT.en.to_owned(),
+                why: SIGN_PHASE_TEXT.text_in_language(InterfaceLanguage::English).to_owned(),
             }));
         }
         Ok(stretches)

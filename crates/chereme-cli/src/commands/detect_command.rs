@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
+use chereme_corpus::words::InterfaceLanguage;
 use chereme_corpus::{ALL_DETECTORS, AnnotationDetector, Corpus, CutOptions, DetectOptions, DetectionUse};
 use clap::builder::PossibleValue;
 
@@ -62,7 +63,12 @@ pub(crate) struct DetectArgs {
 /// Returns the names of all detectors, each with the annotations that it finds.
 pub(super) fn list_detector_names() -> Vec<PossibleValue> {
     let named = |detector: &&dyn AnnotationDetector| {
-        PossibleValue::new(detector.detector_name()).help(detector.detector_description().finds.en)
+        PossibleValue::new(detector.detector_name()).help(
+            detector
+                .detector_description()
+                .finds
+                .text_in_language(InterfaceLanguage::English),
+        )
     };
     ALL_DETECTORS.iter().map(named).collect()
 }

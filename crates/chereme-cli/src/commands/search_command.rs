@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 use chereme_corpus::{
-    Corpus, CorpusError, FACET_VALUES, HitOpinion, HitOrder, KeptSearch, SearchHit, SearchOptions, TallyRow,
+    Corpus, CorpusError, FACET_VALUES, HitOrder, KeptSearch, SearchHit, SearchOptions, TallyRow, ValueOpinion,
     ValueTally, components_text,
 };
 use clap::ValueEnum;
@@ -371,7 +371,7 @@ fn search_hit_cells(hit: &SearchHit, names_lexicon: bool, order_attribute: Optio
 }
 
 /// Returns an opinion marked with why it does not count: `right.placement=chin [proposed, detector, 0.92]`.
-fn opinion_text(opinion: &HitOpinion) -> String {
+fn opinion_text(opinion: &ValueOpinion) -> String {
     let mut marks = vec![opinion.standing.standing_name().to_owned()];
     marks.extend(opinion.by.clone());
     marks.extend(opinion.confidence.map(|sure| format!("{sure:.2}")));

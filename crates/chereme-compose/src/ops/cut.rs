@@ -104,10 +104,10 @@ impl StepOperator for SpanSettings {
     }
 
     fn operator_form_fields(&mut self) -> Vec<FieldSetting<'_>> {
-        let setting = |en, fr, field| FieldSetting::new(InterfaceText::new(en, fr), field);
+        let setting = |id, field| FieldSetting::new(InterfaceText::from_id(id), field);
         vec![
-            setting("from", "à partir de", OperatorField::Time(&mut self.from, 0.2)),
-            setting("to", "jusqu’à", OperatorField::Time(&mut self.to, 1.0)),
+            setting("operator-setting-from-time", OperatorField::Time(&mut self.from, 0.2)),
+            setting("operator-setting-to-time", OperatorField::Time(&mut self.to, 1.0)),
         ]
     }
 }

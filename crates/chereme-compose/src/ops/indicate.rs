@@ -124,11 +124,11 @@ impl StepOperator for IndicateSettings {
     }
 
     fn operator_form_fields(&mut self) -> Vec<FieldSetting<'_>> {
-        let setting = |en, fr, spot| FieldSetting::new(InterfaceText::new(en, fr), OperatorField::Spot(spot));
+        let setting = |id, spot| FieldSetting::new(InterfaceText::from_id(id), OperatorField::Spot(spot));
         vec![
             FieldSetting::hands_field_setting(&mut self.hand),
-            setting("from", "de", &mut self.from),
-            setting("to", "à", &mut self.to),
+            setting("operator-setting-from-spot", &mut self.from),
+            setting("operator-setting-to-spot", &mut self.to),
         ]
     }
 }

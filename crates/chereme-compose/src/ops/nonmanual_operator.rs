@@ -206,7 +206,10 @@ impl StepOperator for NonmanualSettings {
 
     fn operator_form_fields(&mut self) -> Vec<FieldSetting<'_>> {
         let field = OperatorField::Sign(&mut self.from);
-        vec![FieldSetting::new(InterfaceText::new("from sign", "du signe"), field)]
+        vec![FieldSetting::new(
+            InterfaceText::from_id("operator-setting-from-sign"),
+            field,
+        )]
     }
 }
 

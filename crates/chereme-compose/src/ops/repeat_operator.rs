@@ -134,15 +134,15 @@ impl StepOperator for RepeatSettings {
     }
 
     fn operator_form_fields(&mut self) -> Vec<FieldSetting<'_>> {
-        let setting = |en, fr, field| FieldSetting::new(InterfaceText::new(en, fr), field);
+        let setting = |id, field| FieldSetting::new(InterfaceText::from_id(id), field);
         let times = OperatorField::Count(&mut self.times, 1..=20);
         let scale = OperatorField::OptionalFactor(&mut self.scale, 0.8);
         let tempo = OperatorField::OptionalFactor(&mut self.tempo, 1.2);
         vec![
-            setting("How often", "Combien de fois", times),
-            setting("size", "taille", scale),
-            setting("tempo", "tempo", tempo),
-            setting("gap", "pause", OperatorField::Time(&mut self.gap, 0.1)),
+            setting("operator-setting-times", times),
+            setting("operator-setting-scale", scale),
+            setting("operator-setting-tempo", tempo),
+            setting("operator-setting-gap", OperatorField::Time(&mut self.gap, 0.1)),
             FieldSetting::transition_field_setting(&mut self.via),
         ]
     }

@@ -36,7 +36,7 @@ fn described_effect(english: &str, language: InterfaceLanguage) -> Option<&'stat
     let mut detectors = ALL_DETECTORS
         .iter()
         .map(|detector| detector.detector_description().finds);
-    let matched_detector = detectors.find(|finds| finds.en == english);
+    let matched_detector = detectors.find(|finds| finds.text_in_language(InterfaceLanguage::English) == english);
     matched_detector.map(|finds| finds.text_in_language(language))
 }
 

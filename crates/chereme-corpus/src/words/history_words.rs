@@ -8,36 +8,7 @@ use super::effect::{AnnotationDeed, AnnotationEffect, OperationEffect};
 use super::phrases::BlankedPhrase;
 use super::sentences::{filled_sentence, load_message_patterns};
 
-texts! {
-    TITLE: "History", "Historique";
-    EMPTY: "Nothing has been done yet.", "Rien n’a encore été fait.";
-    FILTER: "Who or what", "Qui ou quoi";
-    NONE_FIT: "Nothing like that was done.", "Rien de tel n’a été fait.";
-    NOW: "now", "maintenant";
-    UNDONE: "undone", "annulé";
-    GONE: "undone, and not to be done again", "annulé, et ne peut être rétabli";
-    BEGINNING: "The empty corpus", "Le corpus vide";
-    TIP_BACK: "Click to go back to just after this", "Cliquez pour revenir juste après ceci";
-    TIP_FORWARD: "Click to do it again, up to here", "Cliquez pour rétablir jusqu’ici";
-    WALK_BACK: "Undo {n} steps?", "Annuler {n} étapes ?";
-    WALK_FORWARD: "Do {n} steps again?", "Rétablir {n} étapes ?";
-    WALK_GO: "Yes", "Oui";
-    WALKED_BACK: "{n} steps undone.", "{n} étapes annulées.";
-    WALKED_FORWARD: "{n} steps done again.", "{n} étapes rétablies.";
-    UNDID: "undone: operation {id}, {what}", "annulé : opération {id}, {what}";
-    REDID: "done again: operation {id}, {what}", "rétabli : opération {id}, {what}";
-    ALL_UNDONE: "{count} undone, and nothing is left to undo ({asked} were asked for)", "annulé : {count}, et il ne reste rien à annuler ({asked} étaient demandées)";
-    ALL_REDONE: "{count} done again, and nothing is left to redo ({asked} were asked for)", "rétabli : {count}, et il ne reste rien à rétablir ({asked} étaient demandées)";
-    UNDO_OF: "undo of {id}: ", "annulation de {id} : ";
-    REDO_OF: "redo of {id}: ", "rétablissement de {id} : ";
-    NUMBER: "id", "n°";
-    WHEN: "when", "quand";
-    WHO: "who", "qui";
-    WHAT: "what", "quoi";
-    CHANGES: "changes", "modifications";
-    DONE_AGAIN: "Done again: {what}", "Rétabli : {what}";
-    BY_OTHERS: "{who} changed the corpus in another program: {what}", "{who} a modifié le corpus dans un autre programme : {what}";
-}
+pub use crate::words::texts::history::*;
 
 /// Returns the effect of an operation, as a sentence.
 #[must_use]

@@ -3,54 +3,7 @@
 use super::InterfaceText;
 use super::effect::ConflictDecision;
 
-texts! {
-    TITLE: "Conflicts", "Conflits";
-    ADDED: "added: {what}", "ajouté : {what}";
-    CHANGED: "changed: {what}", "modifié : {what}";
-    REMOVED: "removed: {what}", "supprimé : {what}";
-    NOTHING: "Nothing is new.", "Rien de nouveau.";
-    NO_CONFLICTS: "no conflicts", "aucun conflit";
-    DECIDE: "Decide with `chereme conflicts CORPUS NUMBER --take mine`, or with theirs or both.", "Décidez avec `chereme conflicts CORPUS NUMÉRO --take mine`, ou avec theirs ou both.";
-    CONFLICT: "conflict on tier {tier}: mine {mine}, theirs {theirs}", "conflit sur l’acteur {tier} : le mien {mine}, le leur {theirs}";
-    GONE: "(removed)", "(supprimé)";
-    NUMBER: "number", "n°";
-    WHAT: "what", "quoi";
-    PLACE: "place", "où";
-    MINE: "mine", "le mien";
-    THEIRS: "theirs", "le leur";
-    BOTH: "both", "les deux";
-    FROM: "from", "de";
-    DECIDED: "decided", "décidé";
-    TIER_ADDED: "tier {tier} added", "acteur {tier} ajouté";
-    TIER_REMOVED: "tier {tier} removed", "acteur {tier} supprimé";
-    TIER_RENAMED: "tier {tier} renamed to {to}", "acteur {tier} renommé en {to}";
-    TIER_CHANGED: "tier {tier} changed: {what}", "acteur {tier} modifié : {what}";
-    SHOW: "Show it on the stage and the timeline", "L’afficher sur la scène et la ligne de temps";
-    TIP: "Your candidate stands until you choose. Undo takes a choice back.", "Votre version reste tant que vous n’avez pas choisi. Annuler revient sur un choix.";
-    ANNOTATION: "annotation", "annotation";
-    TIER: "tier", "acteur";
-    RECORDING: "recording", "enregistrement";
-    SOURCE_FILE: "source file", "fichier source";
-    TRACK: "track", "piste";
-    CHANNEL: "channel", "canal";
-    SKELETON: "skeleton", "squelette";
-    SIGNER: "signer", "signeur";
-    PERSON_ALIAS: "other name of a person", "autre nom d’une personne";
-    PERSON_ATTRIBUTE: "attribute of a person", "attribut d’une personne";
-    LEXICON: "lexicon", "lexique";
-    SIGN: "sign", "signe";
-    TOKEN: "token", "occurrence";
-    NOTATION: "notation", "notation";
-    ATTRIBUTE: "attribute", "attribut";
-    INVENTORY: "inventory", "inventaire";
-    INVENTORY_VALUE: "inventory value", "valeur d’inventaire";
-    RECIPE: "recipe", "recette";
-    SEARCH: "saved search", "recherche enregistrée";
-    STUDY: "study", "étude";
-    PARTICIPANT: "participant of a study", "participant d’une étude";
-    ANSWER: "answer of a study", "réponse d’une étude";
-    ROW: "row", "ligne";
-}
+pub use crate::words::texts::merging::*;
 
 /// Returns the noun for an object of a merged kind, such as `annotation`.
 #[must_use]

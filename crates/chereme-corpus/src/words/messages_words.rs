@@ -25,8 +25,8 @@ pub(super) fn described_messages() -> impl Iterator<Item = PhrasePair> {
         .iter()
         .flat_map(|detector| detector.detector_description().messages);
     detectors.map(|text| PhrasePair {
-        english: BlankedPhrase::from_form(text.en),
-        other: BlankedPhrase::from_form(text.fr),
+        english: BlankedPhrase::from_form(text.text_in_language(InterfaceLanguage::English)),
+        other: BlankedPhrase::from_form(text.text_in_language(InterfaceLanguage::French)),
     })
 }
 

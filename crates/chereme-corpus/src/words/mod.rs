@@ -1,8 +1,8 @@
-//! Words shared by the command line and the window, in English and French.
+//! Words shared by the command line and the window.
 //!
-//! Messages, help, titles, guides, menus and the words of pages lie in the files of `schema/words`, one for each room and language. To add one, write it
-//! into the file of its room in each language, under the same id. A text of the tables here is a constant; `{name}` in it is
-//! filled by [`fill_text_braces`]. To add one, write a line into the table of its part; to add a table, name it in `TABLES` of the tests below.
+//! They lie in the files of `schema/words`, one for each room and language. To add a text, write it into the file of its room in
+//! each language, under the same id; the build script declares a constant for each text of the files `texts-PART.ftl`, in a
+//! module for each part, and [`fill_text_braces`] fills the `{name}` in it.
 
 use std::fmt::Display;
 
@@ -11,19 +11,6 @@ pub use count::{counted_in, format_noun_count, noun_form_for_count};
 pub use guides::translate_guide;
 use messages_words::described_messages;
 use phrases::BlankedPhrase;
-
-/// Declares the texts of one part.
-macro_rules! texts {
-    ($($name:ident: $en:literal, $fr:literal;)*) => {
-        $(
-            #[doc = concat!("“", $en, "”")]
-            pub const $name: crate::words::InterfaceText = crate::words::InterfaceText::new($en, $fr);
-        )*
-        #[cfg(test)]
-        pub(crate) const ALL: &[(&str, crate::words::InterfaceText)] = &[$((stringify!($name), $name)),*];
-    };
-}
-pub(crate) use texts;
 
 mod count;
 pub mod deletion;
@@ -40,6 +27,10 @@ mod parts_words;
 mod phrases;
 mod sentences;
 pub mod trouble_words;
+/// The texts that the command line and the window share, by their parts.
+pub(crate) mod texts {
+    include!(concat!(env!("OUT_DIR"), "/texts.rs"));
+}
 
 /// Returns a message in `language`; nothing if the files of words lack it.
 #[must_use]
@@ -104,32 +95,6 @@ pub fn filled_message(form: &str, values: &[&dyn Display], language: InterfaceLa
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    const TABLES: [&[(&str, InterfaceText)]; 5] = [
-        deletion::ALL,
-        history_words::ALL,
-        merge_words::ALL,
-        crate::study::report::report_words::ALL,
-        trouble_words::ALL,
-    ];
-
-    fn blanks(text: &str) -> Vec<&str> {
-        let mut names: Vec<&str> = text
-            .split('{')
-            .skip(1)
-            .filter_map(|rest| rest.split_once('}').map(|(name, _)| name))
-            .collect();
-        names.sort_unstable();
-        names
-    }
-
-    #[test]
-    fn every_text_exists_in_both_languages_with_the_same_blanks() {
-        for (name, text) in TABLES.into_iter().flatten() {
-            assert!(!text.en.trim().is_empty() && !text.fr.trim().is_empty(), "{name}");
-            assert_eq!(blanks(text.en), blanks(text.fr), "{name}");
-        }
-    }
 
     #[test]
     fn blanks_are_filled() {

@@ -59,31 +59,31 @@ impl TierRole {
         match self {
             Self::Gloss => RoleWords {
                 names: &["gloss"],
-                name: InterfaceText::new("gloss", "glose"),
+                name: InterfaceText::from_id("tier-role-gloss"),
                 counted: ["de gloses", "de gloses"],
                 note: "signs; each value is a token",
             },
             Self::Component { .. } => RoleWords {
                 names: &["component"],
-                name: InterfaceText::new("component", "composant"),
+                name: InterfaceText::from_id("tier-role-component"),
                 counted: ["de composants", "de composants"],
                 note: "values of a component of signs, or of a feature of it",
             },
             Self::Translation => RoleWords {
                 names: &["translation"],
-                name: InterfaceText::new("translation", "traduction"),
+                name: InterfaceText::from_id("tier-role-translation"),
                 counted: ["de traduction", "de traduction"],
                 note: "the meaning in a spoken language",
             },
             Self::Comment => RoleWords {
                 names: &["comment", "note"],
-                name: InterfaceText::new("comment", "commentaire"),
+                name: InterfaceText::from_id("tier-role-comment"),
                 counted: ["de remarques", "de remarques"],
                 note: "remarks of the annotators",
             },
             Self::Free => RoleWords {
                 names: &["free", "ignore"],
-                name: InterfaceText::new("anything", "autre"),
+                name: InterfaceText::from_id("tier-role-free"),
                 counted: ["libre", "libres"],
                 note: "anything else",
             },
@@ -391,6 +391,7 @@ fn unknown_role_error(text: &str) -> RoleError {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::words::InterfaceLanguage;
 
     #[test]
     fn a_topic_keeps_its_hand_and_reads_back_as_it_is_printed() {
@@ -436,13 +437,9 @@ mod tests {
         names.dedup();
         assert!(names.len() == many && all.len() > TierRole::PLAIN_TIER_ROLES.len());
         for words in all {
-            let texts = [
-                words.name.en,
-                words.name.fr,
-                words.counted[0],
-                words.counted[1],
-                words.note,
-            ];
+            let name = words.name.text_in_language(InterfaceLanguage::French);
+            assert!(!name.starts_with("tier-role"), "{name}");
+            let texts = [words.counted[0], words.counted[1], words.note];
             assert!(texts.iter().all(|it| !it.trim().is_empty()), "{words:?}");
         }
     }

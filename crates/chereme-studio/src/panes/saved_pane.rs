@@ -98,7 +98,7 @@ impl PathField<'_> {
             hint: self.hint,
             ..CompletionLine::default()
         };
-        paths.show_path_field(ui, Id::unique(("study path", self.name.en)), line, text);
+        paths.show_path_field(ui, Id::unique(("study path", self.name.text_id())), line, text);
         if ui.button(seen.say_text(words::CHOOSE)).clicked() {
             out.send_command(WindowCommand::Choose(self.chooser));
         }

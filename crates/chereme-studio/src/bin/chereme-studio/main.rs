@@ -35,9 +35,7 @@ fn main() -> ExitCode {
         );
     }
     match arguments::read_window_arguments(given) {
-        Ok(ArgumentRequest::Help) => {
-            print_to_stdout(studio_words::STUDIO_HELP_TEXT.text_in_language(language).trim_end())
-        }
+        Ok(ArgumentRequest::Help) => print_to_stdout(studio_words::studio_help_text(language).trim_end()),
         Ok(ArgumentRequest::Version) => print_to_stdout(concat!("chereme-studio ", env!("CARGO_PKG_VERSION"))),
         Ok(ArgumentRequest::Open(asked)) => open_studio_window(asked, system, &FailureReporter { json, language }),
         Err(wrong) => FailureReporter { json, language }.report_failure(

@@ -1,36 +1,31 @@
 //! The help of the program and its messages about wrong arguments, in English and French.
 
-use chereme_corpus::words::InterfaceText;
+use chereme_corpus::words::{InterfaceLanguage, InterfaceText};
 
 /// An option that the program does not have.
-pub(crate) const UNKNOWN_OPTION_TEXT: InterfaceText =
-    InterfaceText::new("unknown option {option}", "option inconnue : {option}");
+pub(crate) const UNKNOWN_OPTION_TEXT: InterfaceText = InterfaceText::from_id("program-unknown-option");
 
 /// An option without its value.
-pub(crate) const MISSING_VALUE_TEXT: InterfaceText =
-    InterfaceText::new("{option} needs a value", "{option} demande une valeur");
+pub(crate) const MISSING_VALUE_TEXT: InterfaceText = InterfaceText::from_id("program-missing-value");
 
 /// A value that an option does not take.
-pub(crate) const UNWANTED_VALUE_TEXT: InterfaceText = InterfaceText::new(
-    "{option} takes one of {codes}, not {value}",
-    "{option} prend un de {codes}, pas {value}",
-);
+pub(crate) const UNWANTED_VALUE_TEXT: InterfaceText = InterfaceText::from_id("program-unwanted-value");
 
 /// A second corpus.
-pub(crate) const SECOND_CORPUS_TEXT: InterfaceText = InterfaceText::new(
-    "one corpus can be opened at once; {option} is a second one",
-    "un seul corpus s’ouvre à la fois ; {option} en est un deuxième",
-);
+pub(crate) const SECOND_CORPUS_TEXT: InterfaceText = InterfaceText::from_id("program-second-corpus");
 
 /// The remedy for wrong arguments.
-pub(crate) const SEE_HELP: InterfaceText = InterfaceText::new(
-    "chereme-studio --help lists the options",
-    "chereme-studio --help donne la liste des options",
-);
+pub(crate) const SEE_HELP: InterfaceText = InterfaceText::from_id("program-see-help");
 
-/// The help.
-pub(crate) const STUDIO_HELP_TEXT: InterfaceText = InterfaceText::new(
-    "\
+/// Returns the help.
+pub(crate) fn studio_help_text(language: InterfaceLanguage) -> &'static str {
+    match language {
+        InterfaceLanguage::French => FRENCH_STUDIO_HELP,
+        InterfaceLanguage::English | InterfaceLanguage::Other(_) => ENGLISH_STUDIO_HELP,
+    }
+}
+
+const ENGLISH_STUDIO_HELP: &str = "\
 Open the workbench: annotate, search and recombine in a window
 
 Without a corpus the window offers the starter corpus, recent corpora, and the import of a folder. The settings are
@@ -51,8 +46,9 @@ Options:
       --json             Print an error as one JSON document on standard output
   -h, --help             Print help
   -V, --version          Print version
-",
-    "\
+";
+
+const FRENCH_STUDIO_HELP: &str = "\
 Ouvrir l’atelier : annoter, chercher et recombiner dans une fenêtre
 
 Sans corpus, la fenêtre propose le corpus de départ, les corpus récents, et l’import d’un dossier. Les réglages sont
@@ -73,5 +69,4 @@ Options :
       --json             Écrire une erreur en un document JSON sur la sortie standard
   -h, --help             Afficher l’aide
   -V, --version          Afficher la version
-",
-);
+";

@@ -454,7 +454,7 @@ fn seek_id() -> eframe::egui::Id {
 /// Shows a foldable part of the pane.
 fn show_cue_part(ui: &mut Ui, seen: &PaneInput<'_>, title: InterfaceText, show: impl FnOnce(&mut Ui)) {
     CollapsingHeader::new(seen.say_text(title))
-        .id_salt(title.en)
+        .id_salt(title.text_id())
         .show(ui, show);
 }
 

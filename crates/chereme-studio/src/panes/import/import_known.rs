@@ -179,7 +179,7 @@ fn show_correction_list<T: PartialEq + Copy>(
         .iter()
         .find(|(other, _)| other == value)
         .map_or("", |(_, text)| seen.say_text(*text));
-    let combo = ComboBox::from_id_salt(text.en).selected_text(now).width(0.0);
+    let combo = ComboBox::from_id_salt(text.text_id()).selected_text(now).width(0.0);
     let inner = combo.show_ui(ui, |ui| {
         for (it, text) in all {
             ui.selectable_value(value, *it, seen.say_text(*text));

@@ -1,159 +1,21 @@
 //! Names of body parts, axes and units for people, and remarks about files.
 
 use chereme_motion::SignerAxes;
+use chereme_sign::words::folders::phrase_text;
 
 use super::import_data::axes_parts;
-use crate::words::{
-    InterfaceLanguage, InterfaceText, fill_text_braces, import_words as words, translate_library_message,
-};
-
-const fn people_part_text(en: &'static str, fr: &'static str) -> InterfaceText {
-    InterfaceText::new(en, fr)
-}
-
-/// Parts that occur once.
-const MIDLINE_PART_NAMES: [(&str, InterfaceText); 6] = [
-    ("head", people_part_text("head", "tête")),
-    ("jaw", people_part_text("jaw", "mâchoire")),
-    ("neck", people_part_text("neck", "cou")),
-    ("chest", people_part_text("chest", "poitrine")),
-    ("spine", people_part_text("spine", "colonne vertébrale")),
-    ("hips", people_part_text("hips", "bassin")),
-];
-
-/// Parts that occur on either side: of the right, and of the left.
-const SIDE_PART_NAMES: [(&str, [InterfaceText; 2]); 14] = [
-    (
-        "eye",
-        [
-            people_part_text("right eye", "œil droit"),
-            people_part_text("left eye", "œil gauche"),
-        ],
-    ),
-    (
-        "clavicle",
-        [
-            people_part_text("right collarbone", "clavicule droite"),
-            people_part_text("left collarbone", "clavicule gauche"),
-        ],
-    ),
-    (
-        "upper arm",
-        [
-            people_part_text("right upper arm", "bras droit"),
-            people_part_text("left upper arm", "bras gauche"),
-        ],
-    ),
-    (
-        "forearm",
-        [
-            people_part_text("right forearm", "avant-bras droit"),
-            people_part_text("left forearm", "avant-bras gauche"),
-        ],
-    ),
-    (
-        "hand",
-        [
-            people_part_text("right hand", "main droite"),
-            people_part_text("left hand", "main gauche"),
-        ],
-    ),
-    (
-        "thigh",
-        [
-            people_part_text("right thigh", "cuisse droite"),
-            people_part_text("left thigh", "cuisse gauche"),
-        ],
-    ),
-    (
-        "shin",
-        [
-            people_part_text("right lower leg", "jambe droite"),
-            people_part_text("left lower leg", "jambe gauche"),
-        ],
-    ),
-    (
-        "foot",
-        [
-            people_part_text("right foot", "pied droit"),
-            people_part_text("left foot", "pied gauche"),
-        ],
-    ),
-    (
-        "toes",
-        [
-            people_part_text("right toes", "orteils droits"),
-            people_part_text("left toes", "orteils gauches"),
-        ],
-    ),
-    (
-        "thumb",
-        [
-            people_part_text("right thumb", "pouce droit"),
-            people_part_text("left thumb", "pouce gauche"),
-        ],
-    ),
-    (
-        "index",
-        [
-            people_part_text("right index finger", "index droit"),
-            people_part_text("left index finger", "index gauche"),
-        ],
-    ),
-    (
-        "middle",
-        [
-            people_part_text("right middle finger", "majeur droit"),
-            people_part_text("left middle finger", "majeur gauche"),
-        ],
-    ),
-    (
-        "ring",
-        [
-            people_part_text("right ring finger", "annulaire droit"),
-            people_part_text("left ring finger", "annulaire gauche"),
-        ],
-    ),
-    (
-        "little",
-        [
-            people_part_text("right little finger", "auriculaire droit"),
-            people_part_text("left little finger", "auriculaire gauche"),
-        ],
-    ),
-];
-
-/// The joints of a finger, from the wrist on.
-const FINGER_JOINT_NAMES: [(&str, InterfaceText); 4] = [
-    ("metacarpal", people_part_text("inside the palm", "dans la paume")),
-    ("base", people_part_text("first joint", "première articulation")),
-    ("middle", people_part_text("middle joint", "articulation du milieu")),
-    ("end", people_part_text("last joint", "dernière articulation")),
-];
+use crate::words::{InterfaceLanguage, fill_text_braces, import_words as words, translate_library_message};
 
 /// Returns the name of a part of the body, such as `right middle middle`; any other text is returned unchanged.
 pub(in crate::panes) fn body_part_name(name: &str, language: InterfaceLanguage) -> String {
-    let of = |all: &[(&str, InterfaceText)], name: &str| {
-        let entry = all.iter().find(|(other, _)| *other == name)?;
-        Some(entry.1.text_in_language(language))
+    let named_part = |part: &str| phrase_text(&format!("body-part-{}", part.replace(' ', "-")), language);
+    let finger_joint = || {
+        let (finger, joint) = name.rsplit_once(' ')?;
+        let joint = phrase_text(&format!("finger-joint-{joint}"), language)?;
+        Some(format!("{}, {joint}", named_part(finger)?))
     };
-    if let Some(found) = of(&MIDLINE_PART_NAMES, name) {
-        return found.to_owned();
-    }
-    let sided = || {
-        let (side, rest) = name.split_once(' ')?;
-        let side = ["right", "left"].iter().position(|other| *other == side)?;
-        let named = |rest: &str| {
-            let entry = SIDE_PART_NAMES.iter().find(|(other, _)| *other == rest)?;
-            Some(entry.1[side].text_in_language(language))
-        };
-        if let Some(found) = named(rest) {
-            return Some(found.to_owned());
-        }
-        let (finger, joint) = rest.rsplit_once(' ')?;
-        Some(format!("{}, {}", named(finger)?, of(&FINGER_JOINT_NAMES, joint)?))
-    };
-    sided().unwrap_or_else(|| name.to_owned())
+    let known_part = named_part(name).map(str::to_owned).or_else(finger_joint);
+    known_part.unwrap_or_else(|| name.to_owned())
 }
 
 /// Returns a sentence about the axes of a file that point up and to the signer's left.

@@ -183,7 +183,7 @@ pub(super) fn show_orient_settings(ui: &mut Ui, seen: &PaneInput<'_>, it: &mut O
     for (text, value) in [(words::PALM, &mut it.palm), (words::FINGERS, &mut it.fingers)] {
         show_field_caption(ui, seen, text);
         changed |= ui
-            .push_id(text.en, |ui| {
+            .push_id(text.text_id(), |ui| {
                 recombine_fields::show_direction_switches(ui, seen, seen.say_text(text), value)
             })
             .inner;

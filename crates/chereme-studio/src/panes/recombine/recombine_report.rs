@@ -80,6 +80,6 @@ fn show_report_section(
     }
     let title = fill_text_braces(seen.say_text(text), &[("n", &count)]);
     CollapsingHeader::new(RichText::new(title).small())
-        .id_salt(text.en)
+        .id_salt(text.text_id())
         .show(ui, content);
 }

@@ -292,7 +292,7 @@ fn by_fields(ui: &mut Ui, seen: &PaneInput<'_>, at: SettingsCard, all: Vec<Field
     });
     for FieldSetting { label, field } in below {
         let text = seen.say_text(label);
-        let row = ui.push_id(label.en, |ui| match field {
+        let row = ui.push_id(label.text_id(), |ui| match field {
             OperatorField::Length(length, most) => {
                 let line = ui.horizontal_wrapped(|ui| {
                     show_field_caption(ui, seen, label);
@@ -304,7 +304,7 @@ fn by_fields(ui: &mut Ui, seen: &PaneInput<'_>, at: SettingsCard, all: Vec<Field
                 show_field_caption(ui, seen, label);
                 recombine_fields::show_direction_switches(ui, seen, text, all)
             }
-            OperatorField::Spot(spot) => spots::optional_spot(ui, seen, at.id.with(label.en), label, spot),
+            OperatorField::Spot(spot) => spots::optional_spot(ui, seen, at.id.with(label.text_id()), label, spot),
             OperatorField::Sign(name) => recombine_fields::show_sign_field(ui, seen, at.id, text, name),
             OperatorField::Via(via) => show_card_transition(ui, seen, at, via),
             _ => false,

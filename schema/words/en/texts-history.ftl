@@ -1,0 +1,30 @@
+## Words around the list of operations.
+
+texts-history-title = History
+texts-history-empty = Nothing has been done yet.
+texts-history-filter = Who or what
+texts-history-none-fit = Nothing like that was done.
+texts-history-now = now
+texts-history-undone = undone
+texts-history-gone = undone, and not to be done again
+texts-history-beginning = The empty corpus
+texts-history-tip-back = Click to go back to just after this
+texts-history-tip-forward = Click to do it again, up to here
+texts-history-walk-back = Undo { $n } steps?
+texts-history-walk-forward = Do { $n } steps again?
+texts-history-walk-go = Yes
+texts-history-walked-back = { $n } steps undone.
+texts-history-walked-forward = { $n } steps done again.
+texts-history-undid = undone: operation { $id }, { $what }
+texts-history-redid = done again: operation { $id }, { $what }
+texts-history-all-undone = { $count } undone, and nothing is left to undo ({ $asked } were asked for)
+texts-history-all-redone = { $count } done again, and nothing is left to redo ({ $asked } were asked for)
+texts-history-undo-of = undo of { $id }:{ " " }
+texts-history-redo-of = redo of { $id }:{ " " }
+texts-history-number = id
+texts-history-when = when
+texts-history-who = who
+texts-history-what = what
+texts-history-changes = changes
+texts-history-done-again = Done again: { $what }
+texts-history-by-others = { $who } changed the corpus in another program: { $what }

@@ -1,0 +1,33 @@
+## Words for errors of the corpus.
+
+texts-trouble-error = error: { $what }
+texts-trouble-where = { "  " }where: { $what }
+texts-trouble-what-to-do = { "  " }what to do: { $what }
+texts-trouble-warning = warning: { $what }
+texts-trouble-note = note: { $what }
+texts-trouble-placed = { $place }: { $what }
+texts-trouble-upgraded = note: { $path } was written by an older program (version { $from }) and is of version { $to } now; { $kept } is the file as it was
+texts-trouble-line = line { $n }:{ " " }
+texts-trouble-actions = The actions are: { $names }
+texts-trouble-failed = That could not be done.
+texts-trouble-task-failed = { $task }: that could not be done.
+texts-trouble-several = Changes that cannot be made: { $n }; none was.
+texts-trouble-not-found = { $path }: there is nothing of this name.
+texts-trouble-there-already = { $path }: something of this name is there already.
+texts-trouble-not-allowed = { $path } may not be read or written.
+texts-trouble-file-failed = { $path } could not be read or written.
+texts-trouble-not-a-corpus = { $path } cannot be opened as a corpus.
+texts-trouble-database = The corpus could not be read or written.
+texts-trouble-busy = Another program is writing to the corpus.
+texts-trouble-disk-full = The disk is full.
+texts-trouble-read-only = The corpus may not be written here.
+texts-trouble-damaged = Something in the corpus is damaged.
+texts-trouble-index = The search index has a fault.
+texts-trouble-other-corpus = choose a file that Chereme made; the start page makes a new one, empty or of a folder’s files
+texts-trouble-check-here = “Check the corpus” of the File menu shows where, and builds derived data again
+texts-trouble-check-path = check the spelling of the path
+texts-trouble-other-name = choose another name, or move the existing one away
+texts-trouble-ask-rights = the file or its folder needs rights that you do not have
+texts-trouble-try-again = try again when it is done
+texts-trouble-make-room = make room and try again; nothing was lost
+texts-trouble-query-wrong = The query is not understood:

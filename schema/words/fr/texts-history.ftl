@@ -1,0 +1,30 @@
+## Words around the list of operations.
+
+texts-history-title = Historique
+texts-history-empty = Rien n’a encore été fait.
+texts-history-filter = Qui ou quoi
+texts-history-none-fit = Rien de tel n’a été fait.
+texts-history-now = maintenant
+texts-history-undone = annulé
+texts-history-gone = annulé, et ne peut être rétabli
+texts-history-beginning = Le corpus vide
+texts-history-tip-back = Cliquez pour revenir juste après ceci
+texts-history-tip-forward = Cliquez pour rétablir jusqu’ici
+texts-history-walk-back = Annuler { $n } étapes ?
+texts-history-walk-forward = Rétablir { $n } étapes ?
+texts-history-walk-go = Oui
+texts-history-walked-back = { $n } étapes annulées.
+texts-history-walked-forward = { $n } étapes rétablies.
+texts-history-undid = annulé : opération { $id }, { $what }
+texts-history-redid = rétabli : opération { $id }, { $what }
+texts-history-all-undone = annulé : { $count }, et il ne reste rien à annuler ({ $asked } étaient demandées)
+texts-history-all-redone = rétabli : { $count }, et il ne reste rien à rétablir ({ $asked } étaient demandées)
+texts-history-undo-of = annulation de { $id } :{ " " }
+texts-history-redo-of = rétablissement de { $id } :{ " " }
+texts-history-number = n°
+texts-history-when = quand
+texts-history-who = qui
+texts-history-what = quoi
+texts-history-changes = modifications
+texts-history-done-again = Rétabli : { $what }
+texts-history-by-others = { $who } a modifié le corpus dans un autre programme : { $what }

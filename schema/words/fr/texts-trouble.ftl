@@ -1,0 +1,33 @@
+## Words for errors of the corpus.
+
+texts-trouble-error = erreur : { $what }
+texts-trouble-where = { "  " }où : { $what }
+texts-trouble-what-to-do = { "  " }que faire : { $what }
+texts-trouble-warning = attention : { $what }
+texts-trouble-note = note : { $what }
+texts-trouble-placed = { $place } : { $what }
+texts-trouble-upgraded = note : { $path } venait d’un programme plus ancien (version { $from }) et est maintenant en version { $to } ; { $kept } est le fichier tel qu’il était
+texts-trouble-line = ligne { $n } :{ " " }
+texts-trouble-actions = Les actions sont : { $names }
+texts-trouble-failed = Cela n’a pas été possible.
+texts-trouble-task-failed = { $task } : cela n’a pas été possible.
+texts-trouble-several = Modifications impossibles : { $n } ; aucune n’a été faite.
+texts-trouble-not-found = { $path } : rien ne porte ce nom.
+texts-trouble-there-already = { $path } : quelque chose porte déjà ce nom.
+texts-trouble-not-allowed = { $path } ne peut être ni lu ni écrit.
+texts-trouble-file-failed = { $path } n’a pas pu être lu ou écrit.
+texts-trouble-not-a-corpus = { $path } ne s’ouvre pas comme corpus.
+texts-trouble-database = Le corpus n’a pas pu être lu ou écrit.
+texts-trouble-busy = Un autre programme écrit dans le corpus.
+texts-trouble-disk-full = Le disque est plein.
+texts-trouble-read-only = Le corpus ne peut pas être écrit ici.
+texts-trouble-damaged = Quelque chose est abîmé dans le corpus.
+texts-trouble-index = L’index de recherche a un défaut.
+texts-trouble-other-corpus = choisissez un fichier créé par Chereme ; la page de départ en crée un, vide ou à partir d’un dossier
+texts-trouble-check-here = « Vérifier le corpus » du menu Fichier dit où, et refait ce qui peut l’être
+texts-trouble-check-path = vérifiez l’orthographe du chemin
+texts-trouble-other-name = choisissez un autre nom, ou déplacez ce qui existe
+texts-trouble-ask-rights = le fichier ou son dossier demande des droits que vous n’avez pas
+texts-trouble-try-again = réessayez quand il aura fini
+texts-trouble-make-room = faites de la place et réessayez ; rien n’est perdu
+texts-trouble-query-wrong = La requête ne se comprend pas :
