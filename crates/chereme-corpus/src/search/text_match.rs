@@ -112,8 +112,8 @@ fn glosses_like(ask: &QueryContext<'_>, pattern: &TextPattern) -> QueryResult<Ve
     let signs = ask.known_signs()?;
     let glosses = signs.rows.iter().map(|(_, gloss, _)| gloss.clone());
     let mut names = search_findings::similar_names(&text, &glosses.collect::<Vec<_>>());
-    // BANK#2 names one of the signs whose gloss is BANK.
-    let labels = search_answers::list_row_names(ask.connection, NamedRowKind::Sign)?;
+    // BANK#2 and ASL/BANK name one of the signs whose gloss is BANK.
+    let labels = search_answers::list_row_names(ask.connection, NamedRowKind::LexiconEntry)?;
     let is_label = |label: &String| fold_text(label) == fold_text(&text) && !names.contains(label);
     if let Some((_, label)) = labels.iter().find(|(_, label)| is_label(label)) {
         names.insert(0, format!("sign={}", quote_finding_name(label)));
