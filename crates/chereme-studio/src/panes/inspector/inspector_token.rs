@@ -30,6 +30,13 @@ pub(super) fn show_token_details(
         ui.weak(seen.say_text(words::SIGN));
         show_thing_link(it, ui, &row.gloss, InspectedThing::Sign(row.sign_id));
         ui.end_row();
+        if let Some(lexicon) = row
+            .lexicon
+            .as_deref()
+            .filter(|_| seen.snapshot.overview.lexicons.len() > 1)
+        {
+            name_and_value(ui, seen, words::LEXICON, lexicon);
+        }
         let origin = seen.say_text(origin_text(row.origin));
         name_and_value(ui, seen, words::ORIGIN, origin);
         if let Some((start, end)) = row.start_us.zip(row.end_us) {

@@ -199,6 +199,7 @@ impl SignMovement {
 /// A sign as a row of the list.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct LibrarySignRow {
+    pub(crate) id: i64,
     pub(crate) gloss: String,
     /// The number of tokens, and the origin of the citation form.
     pub(crate) about: String,
@@ -230,6 +231,7 @@ pub(crate) fn library_sign_rows(
         }
     };
     let row = |sign: &SignGlance| LibrarySignRow {
+        id: sign.id,
         gloss: sign.gloss.clone(),
         about: about(sign),
         token: sign.citation,

@@ -3,6 +3,7 @@
 use chereme_corpus::{CorpusAddress, DeleteOptions, DeletionReport, DependentsPolicy, RowName};
 use eframe::egui::{Align2, Id, Key, Modifiers, ScrollArea, Ui, Window, vec2};
 
+use super::library_data::LibrarySignRow;
 use super::{LibraryList, LibraryPane};
 use crate::action::Action;
 use crate::command::CommandOutbox;
@@ -48,11 +49,11 @@ impl LibraryPane {
             LibraryList::Signs => {
                 let rows = &self.rows.signs;
                 let chosen = || {
-                    let gloss = &self.chosen.as_ref()?.gloss;
-                    rows.iter().find(|row| row.gloss == *gloss)
+                    let chosen = self.chosen.as_ref()?.id;
+                    rows.iter().find(|row| row.id == chosen)
                 };
                 let row = self.focused.and_then(|at| rows.get(at)).or_else(chosen)?;
-                Some(sign_deletion_target(&row.gloss))
+                Some(sign_deletion_target(row))
             }
             LibraryList::People => None,
         }
@@ -149,10 +150,11 @@ pub(super) fn recording_deletion_target(id: i64, name: &str) -> DeletionTarget {
     }
 }
 
-pub(super) fn sign_deletion_target(gloss: &str) -> DeletionTarget {
+pub(super) fn sign_deletion_target(row: &LibrarySignRow) -> DeletionTarget {
     DeletionTarget {
-        address: CorpusAddress::Sign(RowName::Text(gloss.to_owned())),
-        name: gloss.to_owned(),
+        // Several lexicons may have the gloss.
+        address: CorpusAddress::Sign(RowName::Number(row.id)),
+        name: row.gloss.clone(),
     }
 }
 

@@ -117,10 +117,7 @@ impl LibraryPane {
                 let Some(row) = self.rows.signs.get(at).cloned() else {
                     return;
                 };
-                let chosen = self
-                    .chosen
-                    .as_ref()
-                    .is_some_and(|chosen_sign| chosen_sign.gloss == row.gloss);
+                let chosen = self.chosen.as_ref().is_some_and(|chosen_sign| chosen_sign.id == row.id);
                 let response = draw_figure_frame(ui, seen, rect, at, chosen, &row.gloss, &row.about);
                 self.focus_library_row(ui, &response, at);
                 let motion = match (row.moves, row.token) {

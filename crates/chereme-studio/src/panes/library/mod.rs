@@ -319,10 +319,7 @@ impl LibraryPane {
         row: &LibrarySignRow,
         height: f32,
     ) {
-        let chosen = self
-            .chosen
-            .as_ref()
-            .is_some_and(|chosen_sign| chosen_sign.gloss == row.gloss);
+        let chosen = self.chosen.as_ref().is_some_and(|chosen_sign| chosen_sign.id == row.id);
         let lead = height - 4.0;
         let response = super::list_row_at(ui, row_id(at), height, lead, chosen, &row.gloss, &row.about);
         self.focus_library_row(ui, &response, at);
@@ -365,7 +362,7 @@ impl LibraryPane {
                 super::carry::show_sign_menu(ui, seen, token, gloss, recording, out);
                 ui.separator();
             }
-            self.delete_entry(ui, seen, || library_delete::sign_deletion_target(gloss), out);
+            self.delete_entry(ui, seen, || library_delete::sign_deletion_target(row), out);
         });
     }
 }

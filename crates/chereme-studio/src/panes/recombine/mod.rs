@@ -30,7 +30,7 @@ use crate::script::script_edit;
 use crate::words::{fill_text_braces, recombine_words as words};
 use crate::work::{WorkId, WorkOutcome, WorkResult};
 use live::RecipePreview;
-pub(crate) use recombine_fields::{recipe_of, selected_token};
+pub(crate) use recombine_fields::{gloss_means_token, recipe_of, selected_token};
 pub(crate) use recombine_path::{draw_on_stage, drawing_card_id, lengths_from_position, points_of_line};
 use recombine_steps::StepHistory;
 use stack::{CardContent, CardStack, RecipeCard};

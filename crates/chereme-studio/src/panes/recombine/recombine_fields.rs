@@ -424,10 +424,15 @@ pub(crate) fn recipe_of(overview: &CorpusOverview, token: i64, gloss: &str) -> S
     quote_recipe_sign(&recipe_token_address(overview, token, gloss))
 }
 
+/// Returns whether a gloss alone means a token: the citation form of the only sign with that gloss.
+pub(crate) fn gloss_means_token(overview: &CorpusOverview, token: i64, gloss: &str) -> bool {
+    let mut named = overview.signs.iter().filter(|sign| sign.gloss == gloss);
+    named.next().is_some_and(|sign| sign.citation == Some(token)) && named.next().is_none()
+}
+
 /// Returns the name of a token in recipes: its gloss if that means this token, else `token:` and its id.
 pub(super) fn recipe_token_address(overview: &CorpusOverview, token: i64, gloss: &str) -> String {
-    let mut named = overview.signs.iter().filter(|sign| sign.gloss == gloss);
-    let means = named.next().is_some_and(|sign| sign.citation == Some(token));
+    let means = gloss_means_token(overview, token, gloss);
     let text = quote_recipe_sign(gloss);
     let reads = text.parse::<Recipe>().is_ok_and(|parsed| parsed.to_string() == text);
     if means && reads {
@@ -584,4 +589,29 @@ pub(super) fn show_signer_choice(ui: &mut Ui, seen: &PaneInput<'_>, value: &mut 
         .response
         .widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, &name));
     *value != before
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use chereme_corpus::SignGlance;
+
+    #[test]
+    fn a_gloss_of_two_lexicons_names_no_token() {
+        let sign = |id: i64, gloss: &str, lexicon: &str| SignGlance {
+            id,
+            gloss: gloss.to_owned(),
+            lexicon: Some(lexicon.to_owned()),
+            notes: None,
+            tokens: 1,
+            citation: Some(10 + id),
+            place: None,
+            notated: false,
+        };
+        let mut overview = CorpusOverview::default();
+        overview.signs = vec![sign(1, "BOOK", "ASL"), sign(2, "BOOK", "BSL"), sign(3, "SNAIL", "ASL")];
+        assert_eq!(recipe_of(&overview, 11, "BOOK"), "token:11");
+        assert_eq!(recipe_of(&overview, 12, "BOOK"), "token:12");
+        assert_eq!(recipe_of(&overview, 13, "SNAIL"), "SNAIL");
+    }
 }

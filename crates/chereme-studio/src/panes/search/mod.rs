@@ -44,6 +44,7 @@ use crate::action::Action;
 use crate::command::{CommandOutbox, DraggedToken, WindowCommand};
 use crate::context::PaneInput;
 use crate::model::InspectedThing;
+use crate::panes::recombine::gloss_means_token;
 use crate::words::{fill_text_braces, search_words as words};
 use crate::work::{WorkId, WorkOutcome, WorkResult, searching};
 pub(crate) use hits::walk_hit_grid;
@@ -368,8 +369,7 @@ impl SearchPane {
 
 /// Returns the query for signs similar to a token, named by its gloss if that means this token.
 pub(crate) fn like_query(overview: &CorpusOverview, token: i64, gloss: &str) -> String {
-    let mut named = overview.signs.iter().filter(|sign| sign.gloss == gloss);
-    if named.next().is_some_and(|sign| sign.citation == Some(token)) {
+    if gloss_means_token(overview, token, gloss) {
         let text = format!("like {}", search_suggest::quote_query_value(gloss));
         let means = |query: TokenQuery| match &query.root {
             QueryExpression::Like(like) => like.example == ExampleToken::Sign(gloss.to_owned()),
