@@ -5,6 +5,7 @@ use std::ops::Range;
 use chereme_motion::BodySide;
 use chereme_motion::glam::DVec3;
 
+use crate::outcome::TouchReport;
 use crate::recipe_settings::RecipeHandPoint;
 use crate::work::WorkingClip;
 
@@ -13,6 +14,7 @@ mod contact_restore;
 
 use contact_points::{PointAnchors, PointTracks, SEARCHED_POINTS, TOUCHED_BODY_PLACES, TOUCHING_HAND_POINTS};
 pub(crate) use contact_restore::{CONTACT_BLEND_S, ContactsToKeep, blend_shifts, long_repairs, restore_contacts};
+use contact_restore::{MAX_RESTORING_SHIFT_M, UNNOTICED_SHIFT};
 
 /// The largest distance between two touching points of hands, in metres. Captures have no skin: in one of the sign for
 /// thanks, fingertips that touch the mouth come to 5.5 cm of it, thumbs that touch to 3.1 cm.
@@ -36,6 +38,8 @@ const SIMILAR_CONTACT_OFFSET_M: f64 = 0.02;
 pub(crate) struct MovementContacts {
     anchors: PointAnchors,
     found: Vec<ContactSpan>,
+    /// The longest shift of a wrist, in metres, for which the same point of the hand must touch again.
+    same_point_shift: f64,
 }
 
 /// A span of time in which a hand touches something.
@@ -66,6 +70,8 @@ impl MovementContacts {
     pub(crate) fn transfer_contacts(self, work: &WorkingClip) -> Self {
         Self {
             anchors: PointAnchors::find_point_anchors(work),
+            // On a body of other proportions a sign keeps its touching finger, however far that is from it.
+            same_point_shift: MAX_RESTORING_SHIFT_M,
             ..self
         }
     }
@@ -167,6 +173,7 @@ pub(crate) fn find_contacts(work: &WorkingClip) -> MovementContacts {
     MovementContacts {
         anchors,
         found: contacts,
+        same_point_shift: UNNOTICED_SHIFT,
     }
 }
 
@@ -332,6 +339,24 @@ impl ContactEffect {
         };
         Some((is, more))
     }
+}
+
+/// Returns the former contacts with their distances on another body, which moves alike.
+pub(crate) fn report_touches(before: &MovementContacts, work: &WorkingClip) -> Vec<TouchReport> {
+    let tracks = before.anchors.follow_anchored_points(work);
+    let report = |contact: &ContactSpan| {
+        let (point, place) = contact.contact_point_names();
+        Some(TouchReport {
+            point,
+            place,
+            at: work.rate.frame_start_instant(contact.nearest),
+            was_m: contact.offsets[contact.nearest - contact.frames.start].length(),
+            now_m: contact.contact_offset(&tracks, contact.nearest)?.length(),
+            off_m: contact.contact_displacement(&tracks),
+            moved_m: contact.repaired,
+        })
+    };
+    before.found.iter().filter_map(report).collect()
 }
 
 /// Describes the former contacts that are lost, with their distances.

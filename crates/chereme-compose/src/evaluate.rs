@@ -282,6 +282,7 @@ impl<'a> RecipeEvaluator<'a> {
             moved: done.moved,
             language: done.language,
             hands: done.hands,
+            touches: done.touches,
         });
     }
 

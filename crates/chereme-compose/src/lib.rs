@@ -87,7 +87,7 @@ pub use lookup::{letters_in, value_in};
 pub use ops::repeat_operator::MOST_REPETITIONS;
 pub use outcome::{
     ChannelReport, CueTier, GeneratedCurve, GeneratedMovement, GeneratedNote, GenerationReport, HandReport, JoinReport,
-    NoteSubject, StepReport,
+    NoteSubject, StepReport, TouchReport,
 };
 pub use poses::{ExactHandRotations, HandPose, PoseOrigin};
 pub use recipe::{MAX_RECIPE_DEPTH, MOST_PARTS, RECIPE_TREE_VERSION, Recipe};

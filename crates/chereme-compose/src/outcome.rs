@@ -1,6 +1,6 @@
 //! The result of a recipe: movement, its annotations, and the report.
 
-use chereme_motion::{BodySide, Clip, TimeSpan};
+use chereme_motion::{BodySide, Clip, RecordingInstant, TimeSpan};
 use chereme_sign::{ComponentReading, SignComponent, SignerHandedness};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -129,6 +129,28 @@ pub struct StepReport {
     /// The accuracy of each hand, for notation.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub hands: Vec<HandReport>,
+    /// The touches of the hands, for movement on another body.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub touches: Vec<TouchReport>,
+}
+
+/// A touch of a hand after its movement was put on another body.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct TouchReport {
+    /// The point of the hand, such as `right-index-tip`.
+    pub point: String,
+    /// The touched place or point of the other hand, such as `chin` or `left-palm`.
+    pub place: String,
+    /// The moment at which they are nearest.
+    pub at: RecordingInstant,
+    /// Their distance at that moment on the former body, in metres.
+    pub was_m: f64,
+    /// Their distance on this body, in metres.
+    pub now_m: f64,
+    /// The distance by which the point is off against the place, in metres.
+    pub off_m: f64,
+    /// The longest shift of a wrist for it, in metres.
+    pub moved_m: f64,
 }
 
 /// The largest deviations of a hand from its notation over all frames.

@@ -11,6 +11,7 @@ use crate::answers::{AnswerSlot, CorpusAsker, RecipeAnswers, RecipePath};
 use crate::cue::{self};
 use crate::error::{MakeError, StepError};
 use crate::ops::notated_operator::NotationSpelling;
+use crate::ops::on_body::ON_BODY_SLOT;
 use crate::ops::{point, spell};
 use crate::recipe::*;
 use crate::recipe_inputs::{MaterialInput, RecipeInput, RecipeInputs};
@@ -101,6 +102,12 @@ pub fn restore_recipe_inputs(
         let mut material = sources
             .find_material(&stored.address)
             .map_err(|error| fault(error.into()))?;
+        // A recording that only gave its body at rest is such a body again.
+        if material.hash != stored.hash
+            && let Ok(body) = sources.stage(Some(&stored.address))
+        {
+            material = body;
+        }
         // The same name may stand for new movement, from which another sign would come.
         if material.hash != stored.hash {
             let address = stored.address.clone();
@@ -266,7 +273,7 @@ impl RecipeResolver<'_> {
         let is_sign = matches!(*pipe.of, RecipeNode::Sign(_));
         // A sign that is only given a face may be one without movement.
         self.takes_faces = is_sign && pipe.steps.iter().all(on_faces);
-        let setting = self.resolve_node(&pipe.of, &path.operand_path(), of)?;
+        let mut setting = self.resolve_node(&pipe.of, &path.operand_path(), of)?;
         self.takes_faces = false;
         for (n, step) in pipe.steps.iter().enumerate() {
             let path = path.operator_step_path(n);
@@ -274,16 +281,20 @@ impl RecipeResolver<'_> {
             // An unchanged step keeps its choices, so that editing one card does not change what others show.
             if let Some(known) = same_former.and_then(|former| former.former_step_path(step)) {
                 self.copy_part_answers(&known, &path);
-                continue;
+            } else {
+                let resolved_step = step
+                    .operator()
+                    .resolve_operator_inputs(&mut self.ask_at_path(&path), &setting);
+                resolved_step.map_err(|cause| MakeError {
+                    path: path.to_string(),
+                    step: step.to_string(),
+                    cause,
+                })?;
             }
-            let resolved_step = step
-                .operator()
-                .resolve_operator_inputs(&mut self.ask_at_path(&path), &setting);
-            resolved_step.map_err(|cause| MakeError {
-                path: path.to_string(),
-                step: step.to_string(),
-                cause,
-            })?;
+            // Later steps look for postures of the signer whose body moves then.
+            if let Some(body) = self.answers.materials.get(&ON_BODY_SLOT.slot_path_at(&path)) {
+                setting.signer.clone_from(&body.signer);
+            }
         }
         Ok(setting)
     }

@@ -303,7 +303,7 @@ impl RecipeSources for Shelf {
         let found = self
             .materials
             .values()
-            .find(|m| signer.is_none() || m.signer.as_deref() == signer);
+            .find(|m| signer.is_none() || m.signer.as_deref() == signer || Some(m.address.as_str()) == signer);
         let mut material = found.cloned().ok_or_else(|| SourceError::Missing {
             address: signer.unwrap_or_default().to_owned(),
             nearest: None,
@@ -314,7 +314,7 @@ impl RecipeSources for Shelf {
             1,
         );
         material.held.clear();
-        material.address = "stage".into();
+        material.hash.push_str(" at rest");
         material.gloss = "rest".into();
         Ok(material)
     }

@@ -4,5 +4,5 @@ pub use chereme_compose::recipe::*;
 pub use chereme_compose::units::*;
 pub use chereme_compose::{
     ChannelReport, GenerationReport, JoinReport, MeasuredSpline, PhaseRule, RecipeError, RecipeTextProblem, StepReport,
-    TextError,
+    TextError, TouchReport,
 };

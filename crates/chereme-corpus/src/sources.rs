@@ -3,6 +3,7 @@
 use std::cell::RefCell;
 use std::sync::Arc;
 
+use chereme_compose::recipe::BUILT_IN_BODY;
 use chereme_compose::{
     AlphabetLetter, BodyInput, BodyLanguageChanges, ComponentValue, CuePhases, ExpressionSource, HeldValue,
     LearnedProfile, MovementMaterial, RecipeSources, SourceError, SpellingTimes, TokenExample,
@@ -44,7 +45,7 @@ mod sources_language;
 pub(crate) mod sources_notation;
 
 /// What recipes want by a name, in messages.
-const WANTED_BODY: &str = "a body is written signer:NAME or recording:NAME";
+const WANTED_BODY: &str = "a body is written signer:NAME, recording:NAME or built-in";
 const WANTED_MOVEMENT: &str = "the movement of a sign or a recording is wanted";
 const WANTED_NOTATION: &str = "notation is wanted";
 const WANTED_SKELETON: &str = "the movement of a skeleton is wanted";
@@ -341,7 +342,7 @@ impl RecipeSources for CorpusSources<'_> {
 
     fn stage(&self, signer: Option<&str>) -> std::result::Result<MovementMaterial, SourceError> {
         let wanted = match signer.map(str::parse) {
-            _ if signer == Some(starter::OWN_BODY) => {
+            _ if signer.is_some_and(|name| [starter::OWN_BODY, BUILT_IN_BODY].contains(&name)) => {
                 return starter::own_body().map_err(|error| unreadable(&error));
             }
             Some(Ok(CorpusAddress::Recording(name))) => {

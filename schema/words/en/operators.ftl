@@ -37,6 +37,11 @@ operator-nonmanual-hint = head and face of another sign
 guide-operator-nonmanual-head-face-another = head and face of another sign
 guide-operator-nonmanual-expression-fitted-part = an expression, fitted to a part by its milestones
 
+operator-on-title = Body
+operator-on-hint = on another body
+guide-operator-on-another-body = on the body of another signer, or in another recording
+guide-operator-on-programs-own-body = on the program's own body
+
 operator-orient-title = Orientation
 operator-orient-hint = the hands turned
 guide-operator-orient-another-direction-palm = another direction of palm and fingers
@@ -89,6 +94,10 @@ message-operator-one-arm-copied-other-name-right-left = one arm is copied to the
 message-operator-hands-go-through-each-other-in-frames = the hands go through each other in { $n } frames, from { $first } on; take one aside, as with: place left by left 5cm
 message-operator-joints-without-counterpart-stay-they = joints without a counterpart stay as they were: { $names }
 message-operator-joints-head-from-s-stretched-s = { $n } joints of the head from { $sign } ({ $own } s stretched to { $time } s)
+message-operator-movement-put-on-body = the movement is put on the body of { $body }
+message-operator-movement-has-body-already-unchanged = the movement has the body of { $body } already: it is unchanged
+message-operator-name-body-empty = the name of the body is empty
+message-operator-signer-recording-built-in = signer:NAME, recording:NAME or built-in
 message-operator-from-onto = { $function } from { $sign }: { $own } onto { $target }
 message-operator-name-function-empty = the name of the function is empty
 message-operator-milestones-decrease-write-m1-m5-in-order = milestones decrease; write M1 to M5 in order of time

@@ -102,6 +102,7 @@ window-recombine-place-name = Place
 window-recombine-place-hint = chin, chest…
 window-recombine-on-body = Body of
 window-recombine-any-body = anybody
+window-recombine-built-in-body = the program
 window-recombine-where-from = Shape from
 window-recombine-choice-value = value
 window-recombine-choice-best = best of a query

@@ -37,6 +37,11 @@ operator-nonmanual-hint = tête et visage d’un autre signe
 guide-operator-nonmanual-head-face-another = tête et visage d’un autre signe
 guide-operator-nonmanual-expression-fitted-part = une expression, ajustée à une partie par ses jalons
 
+operator-on-title = Corps
+operator-on-hint = sur un autre corps
+guide-operator-on-another-body = sur le corps d’un autre signeur, ou d’un autre enregistrement
+guide-operator-on-programs-own-body = sur le corps du programme
+
 operator-orient-title = Orientation
 operator-orient-hint = les mains tournées
 guide-operator-orient-another-direction-palm = une autre direction de la paume et des doigts
@@ -89,6 +94,10 @@ message-operator-one-arm-copied-other-name-right-left = un bras est copié sur l
 message-operator-hands-go-through-each-other-in-frames = les mains se traversent dans { $n } images, à partir de { $first } ; écartez-en une, comme avec : place left by left 5cm
 message-operator-joints-without-counterpart-stay-they = les articulations sans pendant restent comme elles étaient : { $names }
 message-operator-joints-head-from-s-stretched-s = { $n } articulations de la tête d’après { $sign } ({ $own } s étirées à { $time } s)
+message-operator-movement-put-on-body = le mouvement est mis sur le corps de { $body }
+message-operator-movement-has-body-already-unchanged = le mouvement a déjà le corps de { $body } : il reste tel quel
+message-operator-name-body-empty = le nom du corps est vide
+message-operator-signer-recording-built-in = signer:NOM, recording:NOM ou built-in
 message-operator-from-onto = { $function } d’après { $sign } : { $own } sur { $target }
 message-operator-name-function-empty = le nom de la fonction est vide
 message-operator-milestones-decrease-write-m1-m5-in-order = les jalons reculent ; écrivez M1 à M5 dans l’ordre du temps

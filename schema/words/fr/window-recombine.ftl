@@ -102,6 +102,7 @@ window-recombine-place-name = Emplacement
 window-recombine-place-hint = chin, chest…
 window-recombine-on-body = Corps de
 window-recombine-any-body = n’importe qui
+window-recombine-built-in-body = le programme
 window-recombine-where-from = Forme prise de
 window-recombine-choice-value = valeur
 window-recombine-choice-best = meilleur d’une requête

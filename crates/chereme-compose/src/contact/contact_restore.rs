@@ -10,9 +10,9 @@ use crate::work::{JointColumns, JointGroup, WorkingClip};
 
 /// The longest shift of a wrist, in metres, that repairs a contact unnoticed: the same point of the hand touches again,
 /// and nobody is warned.
-const UNNOTICED_SHIFT: f64 = 0.03;
+pub(super) const UNNOTICED_SHIFT: f64 = 0.03;
 /// The longest shift for any point of the hand to touch, in metres.
-const MAX_RESTORING_SHIFT_M: f64 = 0.12;
+pub(super) const MAX_RESTORING_SHIFT_M: f64 = 0.12;
 /// The time in which a wrist moves to and from a restored contact, in seconds.
 pub(crate) const CONTACT_BLEND_S: f64 = 0.2;
 
@@ -57,7 +57,8 @@ pub(crate) fn restore_contacts(
         Some(_) => true,
         None => body && sides.contains(&contact.side),
     };
-    let MovementContacts { anchors, found } = before;
+    let same_point_shift = before.same_point_shift;
+    let MovementContacts { anchors, found, .. } = before;
     if !found.iter().any(wanted) {
         return Vec::new();
     }
@@ -73,7 +74,7 @@ pub(crate) fn restore_contacts(
             if contact.side != side && contact.other.is_none() {
                 continue;
             }
-            let Some((shift, point)) = restoring_wrist_shift(contact, &tracks, side) else {
+            let Some((shift, point)) = restoring_wrist_shift(contact, &tracks, side, same_point_shift) else {
                 continue;
             };
             let slots = &mut shifts[contact.frames.clone()];
@@ -134,6 +135,7 @@ fn restoring_wrist_shift(
     contact: &ContactSpan,
     tracks: &PointTracks<'_>,
     side: BodySide,
+    same_point_shift: f64,
 ) -> Option<(Vec<DVec3>, usize)> {
     if contact.contact_displacement(tracks) < KEPT_CONTACT_OFFSET_M {
         return None;
@@ -165,7 +167,7 @@ fn restoring_wrist_shift(
         Some((displacements, most))
     };
     let (same, most) = displacements(hand_point)?;
-    if most <= UNNOTICED_SHIFT {
+    if most <= same_point_shift {
         return Some((same, hand_point));
     }
     let parts = (0..TOUCHING_HAND_POINTS.len()).filter_map(|point| Some((displacements(point)?, point)));

@@ -399,6 +399,7 @@ fn report_animation(
             moved: None,
             language: None,
             hands: hands.clone(),
+            touches: Vec::new(),
         });
     }
     let moved = |side: BodySide| {

@@ -63,6 +63,8 @@ pub enum OperatorField<'a> {
     Spot(&'a mut Option<SigningSpot>),
     /// The address of a sign.
     Sign(&'a mut String),
+    /// The address of a body.
+    Body(&'a mut String),
     /// A transition.
     Via(&'a mut PostureTransition),
 }

@@ -14,7 +14,7 @@ use crate::answers::{CorpusAsker, NodeAnswers};
 use crate::contact::{ContactEffect, ContactsToKeep};
 use crate::error::{RecipeError, StepError};
 use crate::language::BodyLanguageChanges;
-use crate::outcome::{HandReport, JoinReport};
+use crate::outcome::{HandReport, JoinReport, TouchReport};
 use crate::sources::MaterialSigner;
 use crate::text::{ParsedText, RecipeParser};
 use crate::work::WorkingClip;
@@ -32,6 +32,7 @@ pub(crate) mod join;
 pub(crate) mod mirror;
 pub(crate) mod nonmanual_operator;
 pub(crate) mod notated_operator;
+pub(crate) mod on_body;
 pub(crate) mod orient_operator;
 pub(crate) mod place_operator;
 pub(crate) mod point;
@@ -123,6 +124,7 @@ pub(crate) struct StepOutcome {
     pub(crate) moved: Option<[f64; 3]>,
     pub(crate) language: Option<BodyLanguageChanges>,
     pub(crate) hands: Vec<HandReport>,
+    pub(crate) touches: Vec<TouchReport>,
     pub(crate) joins: Vec<JoinReport>,
     /// Contacts that it lost.
     pub(crate) lost: Vec<String>,
@@ -283,6 +285,8 @@ operators! {
     Indicate(IndicateSettings) in indicate;
     /// Takes head and face from another sign.
     Nonmanual(NonmanualSettings) in nonmanual_operator with ExpressionTimes;
+    /// Puts the movement on another body.
+    On(OnBodySettings) in on_body with BUILT_IN_BODY;
 }
 
 impl Step {

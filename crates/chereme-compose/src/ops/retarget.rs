@@ -7,6 +7,7 @@ use chereme_motion::{BodyAnatomy, BodyPart, BodySide, FrameRate, JointChannel, L
 
 use crate::contact::{self, ContactEffect, ContactsToKeep};
 use crate::error::StepError;
+use crate::outcome::TouchReport;
 use crate::recipe_settings::ArmSolverMethod;
 use crate::work::{JointColumns, WorkingClip};
 use crate::{arm, body};
@@ -20,6 +21,7 @@ pub(crate) struct TouchingMovement {
     pub(crate) kept: Vec<String>,
     /// Those that were lost.
     pub(crate) lost: Vec<String>,
+    pub(crate) touches: Vec<TouchReport>,
     /// Those that were kept by moving a wrist far.
     pub(crate) warnings: Vec<String>,
 }
@@ -56,6 +58,7 @@ pub(crate) fn retarget_with_contacts(
     let kept = contact::restore_contacts(&mut out, &mut touched, keep, operator);
     Ok(TouchingMovement {
         contacts: touched.count_contacts(),
+        touches: contact::report_touches(&touched, &out),
         lost: contact::describe_lost_contacts(&touched, &out, ContactEffect::Same),
         warnings: contact::long_repairs(&touched, operator),
         work: out,

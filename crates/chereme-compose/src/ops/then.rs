@@ -165,7 +165,7 @@ const SAME_ANGLE: [f64; 2] = [0.1, 0.02];
 /// same body: joints of equal names, parents and offsets, except for offsets of joints whose positions both movements
 /// give. The bones of one signer may differ a little, and joints that are no parts of the body, such as markers, may be
 /// missing: they stay as they are at the end of the first.
-fn on_same_body(first: &WorkingClip, second: &WorkingClip) -> Option<WorkingClip> {
+pub(crate) fn on_same_body(first: &WorkingClip, second: &WorkingClip) -> Option<WorkingClip> {
     let (a, b) = (&first.skeleton, &second.skeleton);
     let on_first = |channels: Vec<JointChannel>| WorkingClip {
         skeleton: Arc::clone(a),

@@ -30,7 +30,7 @@ fn remade(
 }
 
 /// Puts a node above the root, which is turned and moved; the root makes up for that.
-fn with_armature(material: &MovementMaterial, gloss: &str) -> MovementMaterial {
+pub(super) fn with_armature(material: &MovementMaterial, gloss: &str) -> MovementMaterial {
     let turn = DQuat::from_rotation_x(-std::f64::consts::FRAC_PI_2);
     let place = DVec3::new(0.3, -0.2, 0.5);
     let mut joints = vec![SkeletonJoint::new("Armature", None, DVec3::ZERO)];
@@ -72,7 +72,7 @@ fn moved(material: &MovementMaterial, gloss: &str, by: DVec3) -> MovementMateria
 }
 
 /// Gives a body toes and turns its feet out; the axes of its joints are plain.
-fn with_toes(material: &MovementMaterial, gloss: &str) -> MovementMaterial {
+pub(super) fn with_toes(material: &MovementMaterial, gloss: &str) -> MovementMaterial {
     let mut joints = material.clip.clip_skeleton().skeleton_joints().to_vec();
     let mut channels = material.clip.clone().into_channels();
     for side in BodySide::BOTH_SIDES {
@@ -98,7 +98,7 @@ fn with_toes(material: &MovementMaterial, gloss: &str) -> MovementMaterial {
 
 /// Lays the bone of every joint of a limb with one child, or with a tip, along that joint's Z axis, without any rest
 /// rotation: no body can assume such a rest pose, and the same movement has other rotations.
-fn along_one_axis(material: &MovementMaterial, gloss: &str) -> MovementMaterial {
+pub(super) fn along_one_axis(material: &MovementMaterial, gloss: &str) -> MovementMaterial {
     let skeleton = material.clip.clip_skeleton();
     let turns: Vec<DQuat> = (0..skeleton.len())
         .map(|joint| {
@@ -139,7 +139,7 @@ fn along_one_axis(material: &MovementMaterial, gloss: &str) -> MovementMaterial 
 }
 
 /// Rolls the thumbs of a body about their bones at rest, and gives its metacarpals another direction.
-fn with_rolled_thumbs(material: &MovementMaterial, gloss: &str) -> MovementMaterial {
+pub(super) fn with_rolled_thumbs(material: &MovementMaterial, gloss: &str) -> MovementMaterial {
     let mut joints = material.clip.clip_skeleton().skeleton_joints().to_vec();
     for side in BodySide::BOTH_SIDES {
         let joint = |n| material.anatomy.part_joint(BodyPart::Thumb(side, n)).expect("a thumb");

@@ -8,6 +8,7 @@ mod goldens;
 mod joining;
 mod laws;
 mod notated;
+mod on_body;
 mod operators;
 mod paths;
 mod rest;

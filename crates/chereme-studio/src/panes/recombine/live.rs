@@ -212,6 +212,7 @@ mod tests {
             moved: None,
             language: None,
             hands: Vec::new(),
+            touches: Vec::new(),
         };
         let report = GenerationReport {
             steps: vec![

@@ -5,8 +5,8 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use chereme_corpus::recipe::{
-    BodyDirection, HandChoice, PostureTransition, Recipe, RecipeFactor, RecipeLength, RecipeNode, RecipeSeconds,
-    TransitionProfile,
+    BUILT_IN_BODY, BodyDirection, HandChoice, PostureTransition, Recipe, RecipeFactor, RecipeLength, RecipeNode,
+    RecipeSeconds, TransitionProfile,
 };
 use chereme_corpus::{CorpusOverview, MadePart, SignGlance, TokenRow};
 use chereme_sign::{ComponentInventory, InventoryValue, SignComponent};
@@ -583,6 +583,8 @@ pub(super) fn show_signer_choice(ui: &mut Ui, seen: &PaneInput<'_>, value: &mut 
             let address = format!("signer:{}", signer.id);
             ui.selectable_value(value, Some(address), &signer.name);
         }
+        let built_in = Some(BUILT_IN_BODY.to_owned());
+        ui.selectable_value(value, built_in, seen.say_text(words::BUILT_IN_BODY));
     });
     let name = format!("{}: {now}", seen.say_text(words::ON_BODY));
     inner

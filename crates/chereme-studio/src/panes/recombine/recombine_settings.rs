@@ -1,8 +1,8 @@
 //! Widgets for the settings of each source and operator; a setting without a widget is a line of its text.
 
 use chereme_corpus::recipe::{
-    CueSettings, FieldSetting, HandChoice, OperatorField, PhaseRule, PlacementGoal, PostureTransition, Recipe,
-    RecipeFactor, RecipeNode, SpellSettings, Step,
+    BUILT_IN_BODY, CueSettings, FieldSetting, HandChoice, OperatorField, PhaseRule, PlacementGoal, PostureTransition,
+    Recipe, RecipeFactor, RecipeNode, SpellSettings, Step,
 };
 use eframe::egui::{DragValue, Id, Role, Ui, WidgetInfo};
 
@@ -277,6 +277,12 @@ fn by_fields(ui: &mut Ui, seen: &PaneInput<'_>, at: SettingsCard, all: Vec<Field
                 }
                 OperatorField::OptionalFactor(by, usual) => {
                     recombine_fields::show_factor_field(ui, seen, text, by, usual)
+                }
+                OperatorField::Body(body) => {
+                    let mut chosen = Some(std::mem::take(body));
+                    let changed = recombine_fields::show_signer_choice(ui, seen, &mut chosen);
+                    *body = chosen.unwrap_or_else(|| BUILT_IN_BODY.to_owned());
+                    changed
                 }
                 OperatorField::Time(time, usual) => recombine_fields::show_time_field(ui, seen, text, time, usual),
                 OperatorField::Length(..)
