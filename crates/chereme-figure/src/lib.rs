@@ -74,6 +74,7 @@ pub mod writer;
 pub use animation::{AnimationOptions, ClipAnimation, PictureSequence, write_gif};
 pub use body::SignerBody;
 pub use body::portable::{BoneMotion, FaceMorph, PortableBody, PortableBone, PortableVertex};
+pub use body::skinned_figure::{BonePlacement, FigureBone, SkinnedFigure};
 pub use chart::{ChartOptions, alignment_picture};
 pub use error::{ANIMATION_SPEEDS, FigureError, MAX_FRAMES};
 pub use faces::face_sheet;

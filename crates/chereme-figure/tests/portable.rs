@@ -104,3 +104,39 @@ fn the_changes_of_a_portable_face_add_up_to_expressions() {
     println!("middle {middle} m, most {most} m");
     assert!(middle < 1e-3 && most < 6e-3, "{middle} m, {most} m");
 }
+
+#[test]
+fn a_skinned_figure_moves_as_the_body_does() {
+    let clip = signer::handshapes().expect("the example's clip");
+    let anatomy = BodyAnatomy::detect_anatomy(clip.clip_skeleton());
+    let body = SignerBody::new(clip.clip_skeleton(), &anatomy);
+    let figure = body
+        .to_skinned_figure(clip.clip_skeleton(), &anatomy)
+        .expect("two arms");
+    assert_eq!(
+        figure.vertices.len(),
+        body.posed_mesh(&clip.model_pose(0)).vertices.len()
+    );
+    for frame in (0..clip.clip_frame_count()).step_by(7) {
+        let pose = clip.model_pose(frame);
+        let mesh = body.posed_mesh(&pose);
+        let placed = body.bone_placements(&figure, &pose);
+        let mut most: f32 = 0.0;
+        let mut sum: f32 = 0.0;
+        for (vertex, known) in mesh.vertices.iter().enumerate() {
+            let shares = figure.bones_of_vertices[vertex].iter().zip(figure.weights[vertex]);
+            let moved = shares.map(|(bone, weight)| {
+                let (bone, placement) = (&figure.bones[usize::from(*bone)], &placed[usize::from(*bone)]);
+                (placement.turn * (figure.vertices[vertex].position - bone.bind) + placement.place) * weight
+            });
+            let off = moved.sum::<Vec3>().distance(known.position);
+            most = most.max(off);
+            sum += off;
+        }
+        // Only the thickness of bent knuckles and elbows differs, which no bone can have.
+        let mean = sum / mesh.vertices.len() as f32;
+        assert!(most < 0.02 && mean < 5e-4, "frame {frame}: {most} m, mean {mean} m");
+    }
+    let names: BTreeSet<String> = figure.morphs.iter().map(|morph| morph.morph_name()).collect();
+    assert_eq!(names.len(), figure.morphs.len());
+}

@@ -12,20 +12,20 @@ use crate::streams;
 
 /// Export movement, annotations, tables, or the whole enriched database
 ///
-/// The extension of --to determines the format: .bvh (movement of a recording or token), .glb (the same as glTF, for
-/// Blender and the web, with the annotations), .vrma (movement for avatars), .c3d, .trc or .markers.csv (markers),
-/// .eaf, .TextGrid or .xra (a recording's tiers, for ELAN, Praat or SPPAS), .elan.txt (the same as ELAN's tab-delimited
-/// text), .srt or .vtt (its translations or glosses as subtitles, one language a file; tier:12 names one), .csv or .tsv
-/// (tokens with all components), .curves.csv (the strength of each non-manual, frame by frame), .livelink.csv (a
-/// captured face with its timecodes, as Live Link Face writes it for Unreal), .sigml (notated signs as gestural SiGML),
-/// .hsigml (the same as HamNoSys's symbols), .hns or .txt (the same as HamNoSys text, one sign on each line), and, if
-/// the program was built with `--features parquet`, .parquet (tokens for pandas, polars and DuckDB),
-/// .components.parquet, .annotations.parquet and .frames.parquet (a row for each value, each annotation, or each joint
-/// in each frame). A name without an extension is a folder: with --format it gets a file of that format for each
-/// recording or token that has something for it. Without --format `all` writes into it the database, a data dictionary
-/// with example queries, a file for each table, the recordings, the inventories, checksums and provenance. With --to -
-/// the file goes to standard output. An EAF file that nobody changed comes back byte for byte, and an edit changes only
-/// its own lines. The same corpus always gives the same bytes.
+/// The extension of --to determines the format: .bvh (movement of a recording or token), .glb (a person with that
+/// movement as glTF, for Blender and the web, with the annotations; .bones.glb without the person), .vrma (movement for
+/// avatars), .c3d, .trc or .markers.csv (markers), .eaf, .TextGrid or .xra (a recording's tiers, for ELAN, Praat or
+/// SPPAS), .elan.txt (the same as ELAN's tab-delimited text), .srt or .vtt (its translations or glosses as subtitles,
+/// one language a file; tier:12 names one), .csv or .tsv (tokens with all components), .curves.csv (the strength of
+/// each non-manual, frame by frame), .livelink.csv (a captured face with its timecodes, as Live Link Face writes it for
+/// Unreal), .sigml (notated signs as gestural SiGML), .hsigml (the same as HamNoSys's symbols), .hns or .txt (the same
+/// as HamNoSys text, one sign on each line), and, if the program was built with `--features parquet`, .parquet (tokens
+/// for pandas, polars and DuckDB), .components.parquet, .annotations.parquet and .frames.parquet (a row for each value,
+/// each annotation, or each joint in each frame). A name without an extension is a folder: with --format it gets a file
+/// of that format for each recording or token that has something for it. Without --format `all` writes into it the
+/// database, a data dictionary with example queries, a file for each table, the recordings, the inventories, checksums
+/// and provenance. With --to - the file goes to standard output. An EAF file that nobody changed comes back byte for
+/// byte, and an edit changes only its own lines. The same corpus always gives the same bytes.
 ///
 /// Everything is written for those who keep the corpus, with a note that names who has not agreed that others see it.
 /// With --for research or --for public only what all contributors agreed to (`chereme consent`) is written; what is left

@@ -226,7 +226,7 @@ impl SingleFileFormat {
     fn shown_kinds(self) -> &'static [ConsentKind] {
         match self {
             Self::Bvh | Self::Points(_) | Self::Markers(_) | Self::LiveLink => &[ConsentKind::Movement],
-            Self::Glb | Self::Vrma | Self::Curves(_) | Self::Parquet(LongTable::Frames) => {
+            Self::Glb(_) | Self::Vrma | Self::Curves(_) | Self::Parquet(LongTable::Frames) => {
                 &[ConsentKind::Movement, ConsentKind::Annotation]
             }
             Self::Table(_)

@@ -12,7 +12,7 @@ use chereme_motion::{Clip, MarkerSpace, RecordingInstant, TimeSpan};
 use chereme_sign::ErrorRemedy;
 use rusqlite::Connection;
 
-use super::ExportGate;
+use super::{ExportGate, glb_figure};
 use crate::address::RecordingStretch;
 use crate::curves::face_captured;
 use crate::db::stored_recordings::RecordingRow;
@@ -21,6 +21,14 @@ use crate::error::{CorpusError, CorpusResult};
 use crate::movement::{ChannelGroup, MotionTrack};
 use crate::track::{self, TrackKind};
 
+/// What a GLB shows of the movement.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum GlbLook {
+    /// The person that pictures draw; bones if the skeleton is no person.
+    Person,
+    Bones,
+}
+
 /// Writes the movement of a stretch as GLB, in metres, with the annotations in it, and returns their number.
 ///
 /// # Errors
@@ -28,6 +36,7 @@ use crate::track::{self, TrackKind};
 pub(super) fn write_glb_stretch(
     connection: &Connection,
     stretch: &RecordingStretch,
+    look: GlbLook,
     gate: &ExportGate,
     out: &mut dyn Write,
 ) -> CorpusResult<usize> {
@@ -36,7 +45,14 @@ pub(super) fn write_glb_stretch(
     let clip = track.read_motion_clip(connection, frames.clone(), &ChannelGroup::ALL_CHANNEL_GROUPS)?;
     let span = on_the_clock(&track, &clip, &frames);
     let about = describe_gltf_stretch(connection, stretch, gate, span)?;
-    let bytes = gltf::write_glb(&clip, &about).map_err(|error| too_far(&error))?;
+    let figure = match look {
+        GlbLook::Person => {
+            let curves = crate::curves::of_track(connection, &track, frames)?;
+            glb_figure::visible_figure(&clip, &track.track_anatomy(connection)?, &curves)
+        }
+        GlbLook::Bones => None,
+    };
+    let bytes = gltf::write_glb_with_figure(&clip, &about, figure.as_ref()).map_err(|error| too_far(&error))?;
     write_export_bytes(out, &bytes)?;
     Ok(about.notes.len())
 }

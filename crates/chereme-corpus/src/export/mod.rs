@@ -12,6 +12,7 @@ mod export_long;
 mod export_notation;
 mod export_subtitles;
 mod foreign;
+mod glb_figure;
 #[cfg(test)]
 mod mixed_tests;
 #[cfg(feature = "parquet")]
@@ -133,7 +134,8 @@ impl Corpus {
     /// | `.livelink.csv` | the captured face of one recording or token as Live Link Face writes it |
     /// | `.eaf` | the tiers of one recording, for ELAN |
     /// | `.bvh` | the movement of one recording or token |
-    /// | `.glb` | the same as glTF with a skin, visible bones and the annotations, for Blender and the web |
+    /// | `.glb` | the same as glTF with a person whose skin and face move, and the annotations, for Blender and the web |
+    /// | `.bones.glb` | the same with visible bones in place of the person |
     /// | `.vrma` | the movement of a humanoid for avatars, its face as VRM's presets and gaze, its non-manuals as expressions |
     /// | `.c3d`, `.trc` | the markers of one recording or token |
     /// | `.markers.csv`, `.markers.tsv` | the same as a table of exact numbers, one row for each frame |
@@ -298,7 +300,7 @@ enum SingleFileFormat {
     Eaf,
     Bvh,
     Json,
-    Glb,
+    Glb(foreign::GlbLook),
     Parquet(LongTable),
     Vrma,
     /// Markers as a file of their own.
@@ -320,7 +322,7 @@ impl SingleFileFormat {
             "eaf" => Some(Self::Eaf),
             "bvh" => Some(Self::Bvh),
             "json" => Some(Self::Json),
-            "glb" => Some(Self::Glb),
+            "glb" => Some(Self::Glb(foreign::GlbLook::Person)),
             "parquet" => Some(Self::Parquet(LongTable::Tokens)),
             "vrma" => Some(Self::Vrma),
             "c3d" => Some(Self::Points(foreign::MarkerFileFormat::C3d)),
@@ -358,6 +360,7 @@ impl SingleFileFormat {
             (Self::Table(form), "livelink") if form.delimiter == b',' => Self::LiveLink,
             (Self::Table(form), "markers") => Self::Markers(form.delimiter),
             (Self::Notation(export_notation::NotationFileFormat::Text), "elan") => Self::ElanTable,
+            (Self::Glb(_), "bones") => Self::Glb(foreign::GlbLook::Bones),
             (Self::Parquet(_), inner) => Self::Parquet(LongTable::from_inner_extension(inner)),
             (other, _) => other,
         }
@@ -445,8 +448,8 @@ fn write_file(
             notes.extend(export_bvh::late_start(connection, &stretch)?);
             export_bvh::write_bvh_stretch(connection, &stretch, out, progress).map(|_| ())
         }
-        (SingleFileFormat::Glb, _) => {
-            if foreign::write_glb_stretch(connection, &stretch()?, gate, out)? > 0 {
+        (SingleFileFormat::Glb(look), _) => {
+            if foreign::write_glb_stretch(connection, &stretch()?, look, gate, out)? > 0 {
                 notes.push(GLB_MARKERS_NOTE.to_owned());
             }
             Ok(())

@@ -149,7 +149,7 @@ fn fill_export_folder(
         }
         report.notes.push(left_out(&report.left_out, parts.len(), extension));
     }
-    if format == SingleFileFormat::Glb {
+    if matches!(format, SingleFileFormat::Glb(_)) {
         let script = script(&to.join("annotations_to_markers.py"))?;
         written.insert(0, script);
         let note = "annotations_to_markers.py turns the annotations into markers of Blender's timeline";

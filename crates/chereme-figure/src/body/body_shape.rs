@@ -220,6 +220,15 @@ impl BodyElement {
         }
     }
 
+    /// Returns the joint with which all of it moves; `None` if several move it.
+    pub(super) fn carrying_joint(&self) -> Option<usize> {
+        match &self.shape {
+            BodyShape::Rigid { joint, .. } => Some(*joint),
+            BodyShape::Rod(rod) => Some(rod.ends[0].joint),
+            BodyShape::Loft(_) => None,
+        }
+    }
+
     /// Returns its vertices in the body's mesh.
     pub(super) fn element_vertex_range(&self) -> Range<usize> {
         self.vertices.clone()

@@ -15,6 +15,7 @@ mod glove;
 pub mod portable;
 mod rods;
 mod skin;
+pub mod skinned_figure;
 mod solids;
 mod trunk;
 mod weights;
@@ -31,6 +32,7 @@ use body_contact::HandContactShade;
 use body_head::HeadPlacement;
 use body_shape::{BodyElement, posed_joint_position, posed_joint_rotation};
 use skin::{BoundSkinVertex, SkinRig};
+use trunk::TrunkRig;
 
 /// A signer's body, built once for a skeleton and moved to any posture of it.
 ///

@@ -7,11 +7,11 @@
 use chereme_motion::{FacePosture, ModelPose, Skeleton};
 use glam::{Quat, Vec3};
 
+use super::body_head::HeadPlacement;
 use super::body_shape::{posed_joint_position, posed_joint_rotation};
 use super::skin::{FollowerMotion, SkinFollower, SkinRig, halfway_motion};
-use super::trunk::TrunkRig;
-use super::{BodySkin, SignerBody};
-use crate::palette::RgbColour;
+use super::{BodySkin, SignerBody, TrunkRig};
+use crate::palette::{FigurePalette, RgbColour};
 
 /// A surface whose vertices follow bones.
 #[derive(Debug, Clone, PartialEq)]
@@ -205,38 +205,7 @@ impl SignerBody {
         let (Some(known), Some(first_head_vertex)) = (&self.face, portable.first_head_vertex) else {
             return Vec::new();
         };
-        let shape = |face: &FacePosture| known.head.head_mesh(&known.palette, face).vertices;
-        let tongue_numbers = ["tongue_out", "tongue_left"].map(FacePosture::face_number_position);
-        let ends = (0..FacePosture::FACE_NUMBER_COUNT).flat_map(|number| [(number, false), (number, true)]);
-        let morphs = ends.filter_map(|(number, is_negative)| {
-            let mut numbers = [0.0; FacePosture::FACE_NUMBER_COUNT];
-            if let [Some(out), Some(aside)] = tongue_numbers
-                && aside == number
-            {
-                // A tongue that is not out does not move to a side.
-                numbers[out] = 1.0;
-            }
-            let rest = shape(&FacePosture::from_numbers(numbers));
-            numbers[number] = if is_negative { -1.0 } else { 1.0 };
-            let moved = shape(&FacePosture::from_numbers(numbers));
-            let offsets = moved
-                .iter()
-                .zip(&rest)
-                .map(|(end, start)| end.position - start.position);
-            let moving = offsets
-                .enumerate()
-                .filter(|(_, offset)| offset.length() > LEAST_MORPH_OFFSET_METRES);
-            let (vertices, offsets): (Vec<usize>, Vec<Vec3>) = moving
-                .map(|(vertex, offset)| (first_head_vertex + vertex, offset))
-                .unzip();
-            (!vertices.is_empty()).then_some(FaceMorph {
-                number,
-                is_negative,
-                vertices,
-                offsets,
-            })
-        });
-        morphs.collect()
+        head_face_morphs(&known.head, &known.palette, first_head_vertex)
     }
 
     /// Returns the motions of the keyed bones of `portable`, made by [`portable`](Self::to_portable_body), in `pose`.
@@ -337,8 +306,48 @@ impl PortableBody {
     }
 }
 
+/// Returns the changes of a head's face in the space of its joint, for vertices from `first_head_vertex` on.
+pub(super) fn head_face_morphs(
+    head: &HeadPlacement,
+    palette: &FigurePalette,
+    first_head_vertex: usize,
+) -> Vec<FaceMorph> {
+    let shape = |face: &FacePosture| head.head_mesh(palette, face).vertices;
+    let tongue_numbers = ["tongue_out", "tongue_left"].map(FacePosture::face_number_position);
+    let ends = (0..FacePosture::FACE_NUMBER_COUNT).flat_map(|number| [(number, false), (number, true)]);
+    let morphs = ends.filter_map(|(number, is_negative)| {
+        let mut numbers = [0.0; FacePosture::FACE_NUMBER_COUNT];
+        if let [Some(out), Some(aside)] = tongue_numbers
+            && aside == number
+        {
+            // A tongue that is not out does not move to a side.
+            numbers[out] = 1.0;
+        }
+        let rest = shape(&FacePosture::from_numbers(numbers));
+        numbers[number] = if is_negative { -1.0 } else { 1.0 };
+        let moved = shape(&FacePosture::from_numbers(numbers));
+        let offsets = moved
+            .iter()
+            .zip(&rest)
+            .map(|(end, start)| end.position - start.position);
+        let moving = offsets
+            .enumerate()
+            .filter(|(_, offset)| offset.length() > LEAST_MORPH_OFFSET_METRES);
+        let (vertices, offsets): (Vec<usize>, Vec<Vec3>) = moving
+            .map(|(vertex, offset)| (first_head_vertex + vertex, offset))
+            .unzip();
+        (!vertices.is_empty()).then_some(FaceMorph {
+            number,
+            is_negative,
+            vertices,
+            offsets,
+        })
+    });
+    morphs.collect()
+}
+
 /// Returns where a motion takes a point, without its stretch.
-fn moved_point(motion: &FollowerMotion, at: Vec3) -> Vec3 {
+pub(super) fn moved_point(motion: &FollowerMotion, at: Vec3) -> Vec3 {
     motion.turn * (at - motion.from) + motion.to
 }
 

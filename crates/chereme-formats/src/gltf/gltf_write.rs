@@ -5,6 +5,7 @@ use chereme_motion::{Clip, Skeleton};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
+use super::gltf_figure::{self, GlbFigure};
 use crate::reach::{self, TooFar, skeleton_rest_pose};
 use crate::tracks::unique_track_names;
 
@@ -41,10 +42,10 @@ impl GlbDescription {
     }
 }
 
-const FLOAT_COMPONENT_TYPE: u32 = 5126;
-const SHORT_COMPONENT_TYPE: u32 = 5123;
-const VERTEX_BUFFER_TARGET: u32 = 34_962;
-const INDEX_BUFFER_TARGET: u32 = 34_963;
+pub(super) const FLOAT_COMPONENT_TYPE: u32 = 5126;
+pub(super) const SHORT_COMPONENT_TYPE: u32 = 5123;
+pub(super) const VERTEX_BUFFER_TARGET: u32 = 34_962;
+pub(super) const INDEX_BUFFER_TARGET: u32 = 34_963;
 /// The thickest part of a bone, as a share of its length.
 const BONE_THICKNESS_SHARE: f64 = 0.08;
 /// The position of the thickest part along a bone, as a share of its length.
@@ -61,7 +62,7 @@ pub(super) struct GlbParts {
 }
 
 impl GlbParts {
-    fn add_buffer_view(&mut self, bytes: &[u8], target: Option<u32>) -> usize {
+    pub(super) fn add_buffer_view(&mut self, bytes: &[u8], target: Option<u32>) -> usize {
         while !self.bytes.len().is_multiple_of(4) {
             self.bytes.push(0);
         }
@@ -74,7 +75,7 @@ impl GlbParts {
         self.views.len() - 1
     }
 
-    fn accessor(&mut self, view: usize, kind: (u32, &str), count: usize) -> usize {
+    pub(super) fn accessor(&mut self, view: usize, kind: (u32, &str), count: usize) -> usize {
         let (component, shape) = kind;
         let accessor = json!({"bufferView": view, "componentType": component, "type": shape, "count": count});
         self.accessors.push(accessor);
@@ -124,19 +125,44 @@ for note in json.loads(scene["chereme_annotations"]):
 /// # Errors
 /// [`TooFar`] if a place does not fit into 32-bit numbers.
 pub fn write_glb(clip: &Clip, about: &GlbDescription) -> Result<Vec<u8>, TooFar> {
+    write_glb_with_figure(clip, about, None)
+}
+
+/// Does the same as [`write_glb`], with a visible body instead of bones.
+///
+/// Its bones are nodes below the joints, with `extras.chereme_figure`: [`read_gltf`](super::read_gltf) passes them over, so
+/// that the movement comes back as it was.
+///
+/// # Errors
+/// The same as [`write_glb`]'s.
+pub fn write_glb_with_figure(
+    clip: &Clip,
+    about: &GlbDescription,
+    figure: Option<&GlbFigure>,
+) -> Result<Vec<u8>, TooFar> {
     reach::check_clip_reach(clip)?;
     let skeleton = clip.clip_skeleton();
     let mut parts = GlbParts::default();
-    let animation = animation(clip, about, &mut parts);
-    let inverse = inverse_binds(skeleton, &mut parts);
-    let mesh = skeleton_bone_mesh(skeleton, &mut parts);
     let mut nodes = nodes(skeleton);
-    let joints: Vec<usize> = (0..skeleton.len()).collect();
+    let mut binds = inverse_binds(skeleton);
+    let (mut moved, mut mesh) = (Vec::new(), None);
+    if let Some(figure) = figure {
+        let (figure_binds, figure_moved) = gltf_figure::add_figure_bones(figure, clip, &mut nodes, &mut parts);
+        binds.extend(figure_binds);
+        moved = figure_moved;
+        let (figure_mesh, shares) = gltf_figure::figure_mesh(figure, skeleton.len(), &mut parts);
+        moved.extend(shares.map(|shares| AnimatedNode::new(nodes.len(), "weights", shares)));
+        mesh = Some(figure_mesh);
+    }
+    let animation = animation(clip, about, moved, &mut parts);
+    let inverse = parts.add_float_accessor(&binds, "MAT4", 16, None);
+    let mesh = mesh.or_else(|| skeleton_bone_mesh(skeleton, &mut parts));
+    let joints: Vec<usize> = (0..nodes.len()).collect();
     let mut roots = vec![0];
-    if mesh.is_some() {
-        nodes.push(json!({"name": "bones", "mesh": 0, "skin": 0}));
+    if let Some(mesh) = &mesh {
         // A skinned mesh belongs at the root: its own place in the tree is ignored.
-        roots.push(skeleton.len());
+        roots.push(nodes.len());
+        nodes.push(json!({"name": mesh["name"], "mesh": 0, "skin": 0}));
     }
     let rate = clip.clip_frame_rate();
     let notes = serde_json::to_string(&about.notes).unwrap_or_default();
@@ -159,8 +185,14 @@ pub fn write_glb(clip: &Clip, about: &GlbDescription) -> Result<Vec<u8>, TooFar>
     }
     if let Some(mesh) = mesh {
         document["meshes"] = json!([mesh]);
-        document["materials"] = json!([{"name": "bone", "pbrMetallicRoughness":
-            {"baseColorFactor": [0.8, 0.75, 0.7, 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.9}}]);
+        // The vertices of a figure have colours of their own.
+        let colour = if figure.is_some() {
+            [1.0; 4]
+        } else {
+            [0.8, 0.75, 0.7, 1.0]
+        };
+        document["materials"] = json!([{"name": "surface", "pbrMetallicRoughness":
+            {"baseColorFactor": colour, "metallicFactor": 0.0, "roughnessFactor": 0.9}}]);
     }
     if let Some(licence) = &about.licence {
         document["asset"]["copyright"] = licence.as_str().into();
@@ -233,7 +265,34 @@ pub(super) fn to_gltf_rotation(rotation: DQuat) -> [f32; 4] {
     rotation.normalize().as_quat().normalize().to_array()
 }
 
-fn animation(clip: &Clip, about: &GlbDescription, parts: &mut GlbParts) -> Option<Value> {
+/// What changes a node over time, one value for each frame of the clip.
+pub(super) struct AnimatedNode {
+    node: usize,
+    path: &'static str,
+    output: usize,
+}
+
+impl AnimatedNode {
+    pub(super) fn new(node: usize, path: &'static str, output: usize) -> Self {
+        Self { node, path, output }
+    }
+}
+
+/// Returns rotations as numbers. The two quaternions of a rotation interpolate differently; the nearer one is taken.
+pub(super) fn near_turns(rotations: &[DQuat]) -> Vec<f32> {
+    let mut before = DQuat::IDENTITY;
+    let turns = rotations.iter().flat_map(|rotation| {
+        before = if before.dot(*rotation) < 0.0 {
+            -*rotation
+        } else {
+            *rotation
+        };
+        to_gltf_rotation(before)
+    });
+    turns.collect()
+}
+
+fn animation(clip: &Clip, about: &GlbDescription, moved: Vec<AnimatedNode>, parts: &mut GlbParts) -> Option<Value> {
     let frames = clip.clip_frame_count();
     if frames == 0 {
         return None;
@@ -245,31 +304,20 @@ fn animation(clip: &Clip, about: &GlbDescription, parts: &mut GlbParts) -> Optio
     let input = parts.add_float_accessor(&times, "SCALAR", 1, None);
     parts.set_accessor_bounds(input, &times, 1);
     let (mut samplers, mut channels) = (Vec::new(), Vec::new());
-    let mut add = |joint: usize, path: &str, output: usize| {
-        channels.push(json!({"sampler": samplers.len(), "target": {"node": joint, "path": path}}));
-        samplers.push(json!({"input": input, "output": output, "interpolation": "LINEAR"}));
+    let mut add = |moved: AnimatedNode| {
+        channels.push(json!({"sampler": samplers.len(), "target": {"node": moved.node, "path": moved.path}}));
+        samplers.push(json!({"input": input, "output": moved.output, "interpolation": "LINEAR"}));
     };
     for (joint, channel) in clip.joint_channels().iter().enumerate() {
-        let mut before = DQuat::IDENTITY;
-        let mut turns = Vec::with_capacity(4 * frames);
-        for rotation in &channel.rotations {
-            // The two quaternions of a rotation interpolate differently; write the nearer one.
-            let near = if before.dot(*rotation) < 0.0 {
-                -*rotation
-            } else {
-                *rotation
-            };
-            turns.extend(to_gltf_rotation(near));
-            before = near;
-        }
-        let output = parts.add_float_accessor(&turns, "VEC4", 4, None);
-        add(joint, "rotation", output);
+        let output = parts.add_float_accessor(&near_turns(&channel.rotations), "VEC4", 4, None);
+        add(AnimatedNode::new(joint, "rotation", output));
         if let Some(places) = &channel.translations {
             let places: Vec<f32> = places.iter().flat_map(|at| to_gltf_vector(*at)).collect();
             let output = parts.add_float_accessor(&places, "VEC3", 3, None);
-            add(joint, "translation", output);
+            add(AnimatedNode::new(joint, "translation", output));
         }
     }
+    moved.into_iter().for_each(add);
     Some(json!({
         "name": about.name,
         "channels": channels,
@@ -278,7 +326,7 @@ fn animation(clip: &Clip, about: &GlbDescription, parts: &mut GlbParts) -> Optio
     }))
 }
 
-fn inverse_binds(skeleton: &Skeleton, parts: &mut GlbParts) -> usize {
+fn inverse_binds(skeleton: &Skeleton) -> Vec<f32> {
     let rest = skeleton_rest_pose(skeleton);
     let mut values = Vec::with_capacity(16 * skeleton.len());
     for joint in 0..skeleton.len() {
@@ -290,7 +338,7 @@ fn inverse_binds(skeleton: &Skeleton, parts: &mut GlbParts) -> usize {
         }
         values.extend(inverse);
     }
-    parts.add_float_accessor(&values, "MAT4", 16, None)
+    values
 }
 
 /// Returns a mesh with an eight-sided body for each bone; `None` if no bone has a length.

@@ -12,6 +12,7 @@ mod avatar_face;
 mod avatar_tests;
 mod container;
 mod error;
+mod gltf_figure;
 mod gltf_model;
 mod gltf_read;
 mod gltf_write;
@@ -23,5 +24,6 @@ pub mod vrma;
 
 pub use crate::scene::BodyScene;
 pub use error::GltfError;
+pub use gltf_figure::{GlbFigure, GlbFigureBone, GlbFigureMorph, GlbVertex};
 pub use gltf_read::read_gltf;
-pub use gltf_write::{GlbDescription, MovementNote, write_glb};
+pub use gltf_write::{GlbDescription, MovementNote, write_glb, write_glb_with_figure};

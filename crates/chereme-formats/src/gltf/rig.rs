@@ -6,6 +6,7 @@ use chereme_motion::SkeletonJoint;
 use chereme_motion::glam::{DMat4, DQuat, DVec3};
 
 use super::error::GltfError;
+use super::gltf_figure::FIGURE_MARK;
 use super::gltf_model::{FaceNode, GltfDocument, GltfNode};
 use super::sample::unit_rotation_from;
 use crate::tally::FindingTally;
@@ -199,7 +200,14 @@ fn mark_kept_nodes(
         .filter(|channel| channel.target.path != "weights")
         .filter_map(|channel| channel.target.node)
         .filter(|node| !face.contains_key(node));
-    for node in of_skins.chain(animated) {
+    // Bones that only carry a visible body are no joints of the movement.
+    let of_figure = |node: &usize| {
+        document
+            .nodes
+            .get(*node)
+            .is_some_and(|node| node.extras.get(FIGURE_MARK).is_some())
+    };
+    for node in of_skins.chain(animated).filter(|node| !of_figure(node)) {
         let mut ancestor = Some(node);
         let mut steps = 0;
         while let Some(node) = ancestor {

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use chereme_motion::glam::{DQuat, DVec3};
+use chereme_motion::glam::{DMat4, DQuat, DVec3};
 use chereme_motion::{Clip, FrameRate, JointChannel, Skeleton, SkeletonJoint};
 use serde_json::json;
 
@@ -513,4 +513,142 @@ fn places_beyond_32_bits_are_refused_by_joint_and_frame() {
         frame: Some(1),
     };
     assert_eq!(refused, Err(vrma::VrmaWriteError::TooFar(want)));
+}
+
+/// Returns a body of two vertices: one on a bone that goes with a joint, one between that and a bone of its own.
+fn small_figure(clip: &Clip) -> GlbFigure {
+    let frames = 0..clip.clip_frame_count();
+    let vertex = |place: [f32; 3], weights: [f32; 4]| GlbVertex {
+        place,
+        normal: [0.0, 1.0, 0.0],
+        colour: [255, 128, 0],
+        bones: [0, 1, 0, 0],
+        weights,
+    };
+    let poses: Vec<_> = frames.clone().map(|frame| clip.model_pose(frame)).collect();
+    GlbFigure {
+        vertices: vec![
+            vertex([0.1, 1.2, 0.0], [1.0, 0.0, 0.0, 0.0]),
+            vertex([0.3, 1.3, 0.1], [0.25, 0.75, 0.0, 0.0]),
+            vertex([0.3, 1.1, 0.1], [0.5, 0.5, 0.0, 0.0]),
+        ],
+        triangles: vec![[0, 1, 2]],
+        bones: vec![
+            GlbFigureBone {
+                joint: 1,
+                bind: [0.2, 1.3, 0.0],
+                turns: poses.iter().map(|pose| pose.model_joint_rotation(1)).collect(),
+                places: poses.iter().map(|pose| pose.model_joint_position(1)).collect(),
+            },
+            GlbFigureBone {
+                joint: 2,
+                bind: [0.4, 1.4, 0.0],
+                turns: frames
+                    .clone()
+                    .map(|frame| DQuat::from_rotation_x(0.1 * frame as f64))
+                    .collect(),
+                places: frames
+                    .clone()
+                    .map(|frame| DVec3::new(0.5, 1.0, 0.02 * frame as f64))
+                    .collect(),
+            },
+        ],
+        morphs: vec![GlbFigureMorph {
+            name: "jaw_open".into(),
+            vertices: vec![2],
+            offsets: vec![[0.0, -0.1, 0.0]],
+            shares: frames.map(|frame| frame as f32 / 20.0).collect(),
+        }],
+    }
+}
+
+#[test]
+fn a_visible_body_is_valid_moves_as_given_and_leaves_the_movement_as_it_is() {
+    let clip = clip();
+    let figure = small_figure(&clip);
+    let about = GlbDescription::default();
+    let bytes = write_glb_with_figure(&clip, &about, Some(&figure)).expect("written");
+    let (plain, _) = parse(&write_glb(&clip, &about).expect("written")).expect("a GLB");
+    let (scene, _) = parse(&bytes).expect("a GLB");
+    assert_eq!(scene.clip, plain.clip);
+    // Another reader checks the file and skins the vertices.
+    let document = gltf::Gltf::from_slice(&bytes).expect("valid");
+    let blob = document.blob.clone().expect("numbers");
+    let data = |_: gltf::Buffer<'_>| Some(blob.as_slice());
+    let skin = document.skins().next().expect("a skin");
+    let joints: Vec<usize> = skin.joints().map(|joint| joint.index()).collect();
+    let binds: Vec<DMat4> = skin
+        .reader(data)
+        .read_inverse_bind_matrices()
+        .expect("binds")
+        .map(|bind| DMat4::from_cols_array_2d(&bind.map(|column| column.map(f64::from))))
+        .collect();
+    let mesh = document.meshes().next().expect("a mesh");
+    let primitive = mesh.primitives().next().expect("a surface");
+    let reader = primitive.reader(data);
+    let positions: Vec<[f32; 3]> = reader.read_positions().expect("places").collect();
+    let bones: Vec<[u16; 4]> = reader.read_joints(0).expect("bones").into_u16().collect();
+    let weights: Vec<[f32; 4]> = reader.read_weights(0).expect("weights").into_f32().collect();
+    let colours: Vec<[u8; 3]> = reader.read_colors(0).expect("colours").into_rgb_u8().collect();
+    assert_eq!(colours[0], [255, 55, 0], "128 of 255 gives 22 % of the light");
+    let target = reader.read_morph_targets().next().expect("a target").0.expect("places");
+    assert_eq!(target.collect::<Vec<_>>(), [[0.0; 3], [0.0; 3], [0.0, -0.1, 0.0]]);
+    for frame in [0, 7, 19] {
+        let mut local: Vec<DMat4> = document
+            .nodes()
+            .map(|node| DMat4::from_cols_array_2d(&node.transform().matrix().map(|column| column.map(f64::from))))
+            .collect();
+        for channel in document
+            .animations()
+            .flat_map(|animation| animation.channels().collect::<Vec<_>>())
+        {
+            let node = channel.target().node().index();
+            let (scale, rotation, translation) = local[node].to_scale_rotation_translation();
+            let outputs = channel.reader(data).read_outputs().expect("values");
+            local[node] = match outputs {
+                gltf::animation::util::ReadOutputs::Rotations(all) => {
+                    let turn = all.into_f32().nth(frame).expect("a key").map(f64::from);
+                    DMat4::from_scale_rotation_translation(scale, DQuat::from_array(turn), translation)
+                }
+                gltf::animation::util::ReadOutputs::Translations(mut all) => {
+                    let place = DVec3::from_array(all.nth(frame).expect("a key").map(f64::from));
+                    DMat4::from_scale_rotation_translation(scale, rotation, place)
+                }
+                _ => continue,
+            };
+        }
+        let mut model = vec![DMat4::IDENTITY; local.len()];
+        for root in document.default_scene().expect("a scene").nodes() {
+            let mut open = vec![(root, DMat4::IDENTITY)];
+            while let Some((node, above)) = open.pop() {
+                model[node.index()] = above * local[node.index()];
+                open.extend(node.children().map(|child| (child, model[node.index()])));
+            }
+        }
+        for (vertex, at) in positions.iter().enumerate() {
+            let at = DVec3::from_array(at.map(f64::from));
+            let shares = bones[vertex].iter().zip(weights[vertex]);
+            let moved: DVec3 = shares
+                .map(|(bone, weight)| {
+                    let joint = usize::from(*bone);
+                    (model[joints[joint]] * binds[joint]).transform_point3(at) * f64::from(weight)
+                })
+                .sum();
+            let given = figure.vertices[vertex]
+                .bones
+                .iter()
+                .zip(figure.vertices[vertex].weights);
+            let wanted: DVec3 = given
+                .map(|(bone, weight)| {
+                    let bone = &figure.bones[usize::from(*bone)];
+                    let from = at - DVec3::from_array(bone.bind.map(f64::from));
+                    (bone.turns[frame] * from + bone.places[frame]) * f64::from(weight)
+                })
+                .sum();
+            assert!(
+                moved.distance(wanted) < 1e-5,
+                "frame {frame}, vertex {vertex}: {moved} {wanted}"
+            );
+        }
+    }
 }
