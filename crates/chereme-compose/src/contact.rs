@@ -14,7 +14,7 @@ mod contact_restore;
 
 use contact_points::{PointAnchors, PointTracks, SEARCHED_POINTS, TOUCHED_BODY_PLACES, TOUCHING_HAND_POINTS};
 pub(crate) use contact_restore::{CONTACT_BLEND_S, ContactsToKeep, blend_shifts, long_repairs, restore_contacts};
-use contact_restore::{MAX_RESTORING_SHIFT_M, UNNOTICED_SHIFT};
+use contact_restore::{MAX_OTHER_BODY_SHIFT_M, UNNOTICED_SHIFT};
 
 /// The largest distance between two touching points of hands, in metres. Captures have no skin: in one of the sign for
 /// thanks, fingertips that touch the mouth come to 5.5 cm of it, thumbs that touch to 3.1 cm.
@@ -71,7 +71,7 @@ impl MovementContacts {
         Self {
             anchors: PointAnchors::find_point_anchors(work),
             // On a body of other proportions a sign keeps its touching finger, however far that is from it.
-            same_point_shift: MAX_RESTORING_SHIFT_M,
+            same_point_shift: MAX_OTHER_BODY_SHIFT_M,
             ..self
         }
     }

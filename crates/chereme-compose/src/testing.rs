@@ -315,6 +315,7 @@ impl RecipeSources for Shelf {
         );
         material.held.clear();
         material.hash.push_str(" at rest");
+        material.address = "stage".into();
         material.gloss = "rest".into();
         Ok(material)
     }

@@ -12,7 +12,9 @@ use crate::work::{JointColumns, JointGroup, WorkingClip};
 /// and nobody is warned.
 pub(super) const UNNOTICED_SHIFT: f64 = 0.03;
 /// The longest shift for any point of the hand to touch, in metres.
-pub(super) const MAX_RESTORING_SHIFT_M: f64 = 0.12;
+const MAX_RESTORING_SHIFT_M: f64 = 0.12;
+/// The longest shift on another body, in metres: heads are as far from shoulders as bodies differ.
+pub(super) const MAX_OTHER_BODY_SHIFT_M: f64 = 0.25;
 /// The time in which a wrist moves to and from a restored contact, in seconds.
 pub(crate) const CONTACT_BLEND_S: f64 = 0.2;
 

@@ -70,6 +70,7 @@ fn recipes_as_people_write_them_are_parsed_and_printed() {
         ("A | nonmanual from B by phases", ""),
         ("A | nonmanual wh from B over 0.4s..1.9s by phases | swap", ""),
         ("A | nonmanual from B over ..1.9s", ""),
+        ("A | on signer:2 | on \"built-in body\" | on built-in", ""),
         (
             "A | nonmanual from B over -500ms,0s,0.4s,1s,1.5s by phases",
             "A | nonmanual from B over -0.5s, 0s, 0.4s, 1s, 1.5s by phases",
