@@ -6,7 +6,7 @@ use std::io::Read;
 use std::path::Path;
 
 use chereme_formats::{ImportFinding, hns, sigml};
-use chereme_sign::hamnosys::NotatedSign;
+use chereme_sign::hamnosys::{NotatedSign, print_hamnosys};
 use chereme_sign::{ErrorRemedy, RemedyChoice};
 use rusqlite::Connection;
 use serde::{Deserialize, Serialize};
@@ -163,6 +163,21 @@ pub(crate) fn of_recipes(connection: &Connection, tokens: &[i64]) -> CorpusResul
         }
     }
     Ok(by_token)
+}
+
+/// Returns the tokens whose notation passes a test as HamNoSys; SiGML is written as HamNoSys for it.
+pub(crate) fn tokens_with_notation(connection: &Connection, passes: impl Fn(&str) -> bool) -> CorpusResult<Vec<i64>> {
+    let mut tokens = Vec::new();
+    notations::visit_each_notation(connection, |row| {
+        let token = row.token_id;
+        let text = match &row.text {
+            Some(text) => text.clone(),
+            None => print_hamnosys(&read_notation_row(row)?.document.sign).text,
+        };
+        tokens.extend(passes(&text).then_some(token));
+        Ok(())
+    })?;
+    Ok(tokens)
 }
 
 /// Reads the notation of a row.

@@ -74,6 +74,14 @@ message-queries-text-searched-up-one-two-slips = a text is searched up to one or
 message-queries-write-cue-24-cue-shape-5 = write cue=24, cue.shape=5, cue.placement=throat or cue.phase>100
 message-queries-key-written-as-placement-shape-mouth = a key is written as placement and shape: mouth-4, or 24 with the numbers of the paper (1 side, 2 mouth, 3 chin, 4 cheek, 5 throat)
 message-queries-this-no-key = this is no key
+message-queries-notation-not-compared-like-this = a notation is not compared like this
+message-queries-write-notation-and-symbols = write notation~ and symbols that it has, or notation= and the whole notation; `not` before it denies it
+message-queries-write-symbols-as-names-or-characters = write symbols as names or characters, … for a gap, ? for any symbol, [movement] for any of a class and hamcircle* for names that begin so: notation~"hamfinger2 … hamcircle*"
+message-queries-more-than-symbols-follow-each-other = more than { $n } symbols follow each other here
+message-queries-no-symbol-notation-stands-here = no symbol of notation stands here
+message-queries-no-class-symbols-called = no class of symbols is called { $name }: { $names }
+message-queries-no-symbol-begins-with = no symbol's name begins with { $name }
+message-queries-no-symbol-hamnosys = { $name } is no symbol of HamNoSys
 message-queries-number-should-stand-here = a number should stand here
 message-queries-write-for-example-nonmanual-brows-0 = write for example nonmanual.brows>0.5
 message-queries-no-values-known-for-this-field = no values are known for this field

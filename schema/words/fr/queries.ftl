@@ -74,6 +74,14 @@ message-queries-text-searched-up-one-two-slips = un texte se cherche à une ou d
 message-queries-write-cue-24-cue-shape-5 = écrivez cue=24, cue.shape=5, cue.placement=throat ou cue.phase>100
 message-queries-key-written-as-placement-shape-mouth = une clé s’écrit emplacement et forme : mouth-4, ou 24 avec les numéros de l’article (1 side, 2 mouth, 3 chin, 4 cheek, 5 throat)
 message-queries-this-no-key = ce n’est pas une clé
+message-queries-notation-not-compared-like-this = une notation ne se compare pas ainsi
+message-queries-write-notation-and-symbols = écrivez notation~ et des symboles qu’elle a, ou notation= et toute la notation ; `not` devant le nie
+message-queries-write-symbols-as-names-or-characters = écrivez les symboles par leurs noms ou leurs caractères, … pour un écart, ? pour un symbole quelconque, [movement] pour l’un d’une classe et hamcircle* pour les noms qui commencent ainsi : notation~"hamfinger2 … hamcircle*"
+message-queries-more-than-symbols-follow-each-other = plus de { $n } symboles se suivent ici
+message-queries-no-symbol-notation-stands-here = aucun symbole de notation ne se trouve ici
+message-queries-no-class-symbols-called = aucune classe de symboles ne s’appelle { $name } : { $names }
+message-queries-no-symbol-begins-with = aucun nom de symbole ne commence par { $name }
+message-queries-no-symbol-hamnosys = { $name } n’est pas un symbole de HamNoSys
 message-queries-number-should-stand-here = un nombre doit se trouver ici
 message-queries-write-for-example-nonmanual-brows-0 = écrivez par exemple nonmanual.brows>0.5
 message-queries-no-values-known-for-this-field = aucune valeur n’est connue pour ce champ

@@ -30,6 +30,7 @@ use super::time_relations::NeighbourRelation;
 use crate::db::stored_search::search_answers::{self, DETECTOR_NAME, NamedRowKind};
 use crate::db::stored_search::search_terms::TokenProperty;
 use crate::error::{CorpusError, CorpusResult};
+use crate::notation;
 
 /// The corpus and index against which a query is evaluated.
 pub(crate) struct QueryContext<'a> {
@@ -219,6 +220,10 @@ pub(crate) fn plan_comparison(ask: &QueryContext<'_>, test: &QueryTest) -> Query
         TestSubject::Time(field, times) => Ok(QueryPlan::Index(self::probe_time_range(*field, *times))),
         TestSubject::Attribute(name, wanted) => search_attributes::plan_attribute_test(ask, test, name, wanted),
         TestSubject::Curve(wanted) => search_curves::plan_curve_test(ask, test, wanted),
+        TestSubject::Notation(wanted) => {
+            let tokens = notation::tokens_with_notation(ask.connection, |text| wanted.accepts_notation(text))?;
+            Ok(QueryPlan::Index(IndexProbe::Rows(RowField::Token, tokens)))
+        }
     }
 }
 

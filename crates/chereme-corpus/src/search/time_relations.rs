@@ -62,7 +62,8 @@ impl NeighbourRelation {
             | TestSubject::Property(..)
             | TestSubject::Time(..)
             | TestSubject::Attribute(..)
-            | TestSubject::Curve(..) => Vec::new(),
+            | TestSubject::Curve(..)
+            | TestSubject::Notation(..) => Vec::new(),
         };
         Ok(Self {
             relation,

@@ -60,6 +60,7 @@ mod query_curves;
 mod query_everyday;
 mod query_expression;
 mod query_lex;
+mod query_notation;
 mod query_parse;
 mod query_pattern;
 mod query_print;
@@ -78,6 +79,7 @@ pub use query_attributes::{AttributeTest, attribute_field_text, parse_plain_numb
 pub use query_complete::{CursorCompletion, ExpectedText, complete_query};
 pub use query_everyday::{guess_everyday_query, query_from_everyday_words};
 pub use query_expression::RegularExpression;
+pub use query_notation::NotationPattern;
 pub use query_pattern::TextPattern;
 pub use query_saved::NamedSearch;
 pub use query_tree::{
@@ -140,6 +142,11 @@ Attributes of the sign, from a lexicon table
 
 Curves of face and head during the token (1 is the usual reach, or degrees)
   nonmanual.brows>0.5 for 0.3s   nonmanual.jaw_open>0.4   nonmanual.head_yaw<-10
+
+Notation in HamNoSys, symbols as names or characters
+  notation~"hamfinger2 … hamcirclei"      these in this order; … is a gap
+  notation~"[handshape] hamthumb*"        a class of symbols; names that begin so
+  notation="hamfist …"   notation=*       the whole notation; any notation
 
 Keys of cued speech, placement before shape
   cue=24 meets cue=31   cue=mouth-4   cue.shape=5 cue.placement=throat

@@ -7,7 +7,7 @@ use super::query_tree::{
 };
 use super::query_values::{filled_word, parse_comma_list, parse_field_value, parse_value_path};
 use super::query_words::{self, SimpleField};
-use super::{QueryError, TextPattern, query_attributes, query_cue, query_curves, query_times};
+use super::{QueryError, TextPattern, query_attributes, query_cue, query_curves, query_notation, query_times};
 use crate::component::{ComponentField, HandRef, SignComponent, SignPhase};
 use crate::text::nearest_candidate;
 use std::str::FromStr;
@@ -21,6 +21,9 @@ pub(super) fn parse_field_test(cursor: &mut QueryCursor<'_>) -> Result<QueryTest
     let name = cursor.text_at_place(subject_at);
     let what = match query_words::simple_field(&name) {
         None if query_cue::is_field(&name) => query_cue::parse_cue_test(cursor, &name, subject_at)?,
+        None if name.eq_ignore_ascii_case(query_notation::NOTATION_FIELD) => {
+            query_notation::parse_notation_test(cursor)?
+        }
         Some(SimpleField::Text(field)) => text_test(cursor, field)?,
         Some(SimpleField::Property(property)) => property_test(cursor, property)?,
         Some(SimpleField::Time(field)) => TestSubject::Time(field, query_times::time_test(cursor, field)?),

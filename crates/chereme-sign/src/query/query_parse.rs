@@ -360,6 +360,7 @@ fn parse_related_test(
             | TestSubject::Time(..)
             | TestSubject::Attribute(..)
             | TestSubject::Curve(..)
+            | TestSubject::Notation(..)
     ) {
         return Err(QueryError::new(
             other.subject_at,

@@ -96,6 +96,7 @@ impl Display for QueryTest {
                     lasting => write!(f, " for {}", PrintedSeconds(lasting)),
                 }
             }
+            TestSubject::Notation(pattern) => pattern.fmt(f),
             TestSubject::Attribute(name, test) => {
                 query_attributes::write_name(f, name)?;
                 test.fmt(f)

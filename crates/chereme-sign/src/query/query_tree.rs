@@ -1,6 +1,6 @@
 //! The syntax tree of a query.
 
-use super::{AttributeTest, NamedSearch, TextPattern};
+use super::{AttributeTest, NamedSearch, NotationPattern, TextPattern};
 use crate::component::{ComponentField, ComponentReading};
 use crate::relation::TimeRelation;
 use std::ops::{Bound, Range, RangeBounds};
@@ -230,6 +230,8 @@ pub enum TestSubject {
     Attribute(String, AttributeTest),
     /// A curve of the face or head: `nonmanual.brows>0.5 for 0.3s`.
     Curve(CurveTest),
+    /// A sequence of symbols in its notation: `notation~"hamfinger2 … hamcirclei"`.
+    Notation(NotationPattern),
 }
 
 /// A condition on a curve of the face or head during the token, or a part of it.

@@ -359,6 +359,7 @@ pub(super) fn simple_names() -> impl Iterator<Item = &'static str> {
     texts
         .chain(properties)
         .chain(TimeField::ALL_TIME_FIELDS.into_iter().map(TimeField::time_field_name))
+        .chain([super::query_notation::NOTATION_FIELD])
 }
 
 /// Returns the canonical names of the parts of a component's name: components, hands, phases.
