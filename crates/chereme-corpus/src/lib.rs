@@ -187,7 +187,9 @@ pub use people::{PeopleTableReport, PersonChange, UnitedPeople};
 pub use picture::picture_values as value_pictures;
 pub use picture::{DisplayedMovement, DrawablePerformance, DrawnPicture, PictureOptions, draw_clip};
 pub use progress::{ProgressListener, ProgressReceiver, ProgressStep, ProgressUnit, ignore_progress_step};
-pub use propose::{AcceptanceResult, ProposalChoice, ProposalResult, ProposeOptions, ProposeScope, accepting_tier};
+pub use propose::{
+    AcceptanceResult, ProposalChoice, ProposalResult, ProposeOptions, ProposeScope, ProposedCoding, accepting_tier,
+};
 pub use publish::{LeftOutPart, LeftOutSigns, PublishOptions, PublishedDictionary};
 pub use recombine::{MadePart, NotationFinding, RecombinationResult, TimedNote};
 pub use report_finding::ReportFinding;

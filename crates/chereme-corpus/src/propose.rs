@@ -1,14 +1,13 @@
 //! Codings that are proposed from movement, for components that nobody has coded yet.
 
+mod token_codes;
+
 use std::collections::{BTreeMap, BTreeSet};
 
-use chereme_analysis::transcribe::FeatureKind;
 use chereme_formats::table::annotations::TableMoment;
-use chereme_motion::{BodySide, RecordingInstant, TimeSpan};
-use chereme_sign::hamnosys::NotatedSign;
-use chereme_sign::hamnosys::components::SignMapper;
+use chereme_motion::{RecordingInstant, TimeSpan};
 use chereme_sign::tier::AnnotatedHands;
-use chereme_sign::{ComponentField, HandRef, SignComponent, SignPhase, TierRole};
+use chereme_sign::{ComponentField, HandRef, SignComponent, TierRole};
 use serde::Serialize;
 
 use crate::Corpus;
@@ -26,8 +25,10 @@ use crate::detect::{recordings_of_scope, span_overlaps_times};
 use crate::error::{CorpusError, CorpusResult};
 use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
 use crate::search::{SearchHit, SearchOptions};
-use crate::transcribe::TranscribedFeature;
 use crate::words::effect::OperationEffect;
+
+/// The most signs that a finding names.
+const MOST_UNREAD_NAMES: usize = 20;
 
 /// Options of proposals: the components, and the tokens.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -54,7 +55,7 @@ pub enum ProposeScope {
 }
 
 /// The result of a proposal.
-#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct ProposalResult {
     /// The number of tokens that got values.
     pub tokens: u64,
@@ -65,6 +66,9 @@ pub struct ProposalResult {
     pub unread: u64,
     /// The recordings, in order.
     pub recordings: Vec<String>,
+    /// The values that were read, each with its time, its confidence and the nearest other reading.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub codings: Vec<ProposedCoding>,
     /// The number of annotations by confidence: each tenth by its lower end, such as `0.9`, and `unknown`.
     pub by_confidence: BTreeMap<String, u64>,
     /// The recordings that move, but have no signs yet for which something could be proposed.
@@ -152,7 +156,52 @@ struct ProposedValue {
     start: i64,
     end: i64,
     value: String,
-    confidence: Option<f64>,
+    confidence: f64,
+    is_moving: bool,
+    runner_up: Option<String>,
+}
+
+/// A value that is proposed for a token.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ProposedCoding {
+    /// The row of the token.
+    pub token: i64,
+    /// Its gloss.
+    pub gloss: String,
+    /// The component, with its hand, such as `dominant.configuration`.
+    pub field: String,
+    /// The value.
+    pub value: String,
+    /// The start of the hold or act, in microseconds from the start of the recording.
+    pub start_us: i64,
+    /// Its end.
+    pub end_us: i64,
+    /// The confidence, from 0 to 1.
+    pub confidence: f64,
+    /// Whether the hand does not hold it, but passes through it.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub is_moving: bool,
+    /// The nearest other reading, in words of notation.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub runner_up: Option<String>,
+}
+
+impl ProposedCoding {
+    fn of_token(hit: &SearchHit, (component, feature, hand): &ProposalSubject, value: &ProposedValue) -> Self {
+        let mut field = ComponentField::new(*component).with_field_hand(*hand);
+        field.feature.clone_from(feature);
+        Self {
+            token: hit.token,
+            gloss: hit.gloss.clone(),
+            field: field.to_string(),
+            value: value.value.clone(),
+            start_us: value.start,
+            end_us: value.end,
+            confidence: value.confidence,
+            is_moving: value.is_moving,
+            runner_up: value.runner_up.clone(),
+        }
+    }
 }
 
 /// The subject of a tier with proposals: a component, a feature of it, and the hand.
@@ -265,6 +314,7 @@ impl Corpus {
         let mut values = ProposedTierValues::new();
         let mut unseen: BTreeSet<String> = BTreeSet::new();
         let mut still: BTreeSet<String> = BTreeSet::new();
+        let mut unread: BTreeMap<String, Vec<&str>> = BTreeMap::new();
         let total = Some(wanted.len() as u64);
         for (done, (hit, components)) in wanted.values().enumerate() {
             progress.report_step(ProgressStep {
@@ -278,19 +328,37 @@ impl Corpus {
                 report.unread += 1;
                 continue;
             }
-            match self.read_token_components(components, hit, &mut unseen, progress) {
-                Ok(Some(read)) => {
-                    report.tokens += 1;
+            match self.read_token_codes(components, hit, progress) {
+                Ok(read) => {
                     let recording = hit.recording.clone().unwrap_or_default();
-                    for (subject, value) in read {
+                    if read.lacks_fingers {
+                        unseen.insert(recording.clone());
+                    }
+                    if read.values.is_empty() {
+                        report.unread += 1;
+                        continue;
+                    }
+                    report.tokens += 1;
+                    for (subject, value) in read.values {
+                        report.codings.push(ProposedCoding::of_token(hit, &subject, &value));
                         let key = (recording.clone(), subject);
                         values.entry(key).or_default().push(value);
                     }
                 }
                 Err(CorpusError::Stopped) => return Err(CorpusError::Stopped),
                 // One token that cannot be read must not stop the proposals for all others.
-                Ok(None) | Err(_) => report.unread += 1,
+                Err(error) => {
+                    report.unread += 1;
+                    unread.entry(error.to_string()).or_default().push(&hit.gloss);
+                }
             }
+        }
+        for (why, glosses) in &unread {
+            let shown: Vec<&str> = glosses.iter().copied().take(MOST_UNREAD_NAMES).collect();
+            let more = if shown.len() < glosses.len() { ", …" } else { "" };
+            report
+                .findings
+                .push(format!("signs that cannot be read ({why}): {}{more}", shown.join(", ")));
         }
         for (takes, why) in [
             (
@@ -402,86 +470,6 @@ impl Corpus {
         }
         let take = crate::hands::usable_take(connection, &self.hands, &recording)?;
         Ok((!take.bends).then_some(recording.name))
-    }
-
-    /// Returns the values of components read from a token's movement, for each hand in order of time. A recording whose
-    /// handshapes were not captured is added to `unseen`.
-    fn read_token_components(
-        &self,
-        components: &BTreeSet<SignComponent>,
-        hit: &SearchHit,
-        unseen: &mut BTreeSet<String>,
-        progress: &mut ProgressReceiver<'_>,
-    ) -> CorpusResult<Option<Vec<(ProposalSubject, ProposedValue)>>> {
-        let Some((start, end)) = hit.start_us.zip(hit.end_us) else {
-            return Ok(None);
-        };
-        let Some(recording) = &hit.recording else {
-            return Ok(None);
-        };
-        let address = CorpusAddress::Token(hit.token);
-        let written = self.transcribe_movement(&address, progress)?;
-        let features = written.features;
-        let inventories = self.inventories_now()?;
-        let stretch = crate::address::find_addressed_stretch(self.store.read_connection(), &address)?;
-        let dominant = self.dominant_side(&stretch)?;
-        let left_handed = dominant == BodySide::Left;
-        let mapper = SignMapper::new(inventories.iter().map(|stored| &stored.inventory)).of_left_handed(left_handed);
-        let sign = NotatedSign {
-            gloss: written.gloss,
-            text: Some(written.hamnosys),
-            sign: written.sign,
-            ..NotatedSign::default()
-        };
-        let mut subjects: BTreeMap<ProposalSubject, Vec<(u32, String)>> = BTreeMap::new();
-        for value in mapper.map_sign_components(&sign).values {
-            let field = value.field;
-            let is_covered = field.feature.is_none() || field.component == SignComponent::Orientation;
-            if !components.contains(&field.component) || !is_covered {
-                continue;
-            }
-            let hand = field.hand.unwrap_or(HandRef::Dominant);
-            let side = match hand {
-                HandRef::Right => BodySide::Right,
-                HandRef::Left => BodySide::Left,
-                HandRef::Dominant => dominant,
-                HandRef::Weak => dominant.opposite_side(),
-            };
-            if field.component == SignComponent::Configuration && written.assumed.contains(&side) {
-                unseen.insert(recording.clone());
-                continue;
-            }
-            let order = match field.phase {
-                None | Some(SignPhase::Initial) => 0,
-                Some(SignPhase::Middle(place)) => 1 + u32::from(place),
-                Some(SignPhase::Final) => u32::MAX,
-            };
-            let subject = (field.component, field.feature, hand);
-            subjects.entry(subject).or_default().push((order, value.value));
-        }
-        let mut read = Vec::new();
-        for (subject, mut values) in subjects {
-            values.sort_by_key(|(order, _)| *order);
-            // Phases of one value are one annotation.
-            values.dedup_by(|a, b| a.1 == b.1);
-            let count = values.len() as i64;
-            // Notation orders the values of a sign without times, so that its length is shared evenly.
-            let part_time = |part: i64| start + (end - start) * part / count;
-            for (nth, (_, value)) in (0..).zip(values) {
-                let (start, end) = (part_time(nth), part_time(nth + 1));
-                let confidence = proposal_confidence(&features, &subject, count > 1, start, end);
-                read.push((
-                    subject.clone(),
-                    ProposedValue {
-                        start,
-                        end,
-                        value,
-                        confidence,
-                    },
-                ));
-            }
-        }
-        Ok(Some(read).filter(|read| !read.is_empty()))
     }
 
     /// Returns the proposals of a choice, by recording, tier and time.
@@ -684,7 +672,7 @@ impl Corpus {
                         parent: None,
                         order: None,
                         value: value.value,
-                        confidence: value.confidence,
+                        confidence: Some(value.confidence),
                     }
                     .into(),
                 );
@@ -705,36 +693,6 @@ impl Corpus {
         let rows = stored_tiers::load_tier_annotation_rows(connection, tier.id)?;
         Ok(Some(rows.iter().map(|row| row.end_us).max().unwrap_or(0)))
     }
-}
-
-/// Returns the confidence of a value, from 0.5 to 1: the residual of the second best reading as a share of both. `None`
-/// if no feature of notation belongs to the value.
-fn proposal_confidence(
-    features: &[TranscribedFeature],
-    (component, feature, _): &ProposalSubject,
-    timed: bool,
-    start: i64,
-    end: i64,
-) -> Option<f64> {
-    let kinds: &[FeatureKind] = match (component, feature.as_deref()) {
-        (SignComponent::Configuration, _) => &[FeatureKind::Handshape],
-        (SignComponent::Placement, _) => &[FeatureKind::Location, FeatureKind::Contact],
-        (SignComponent::Movement, _) => &[FeatureKind::Movement, FeatureKind::Course],
-        (SignComponent::Orientation, Some("fingers")) => &[FeatureKind::Direction],
-        (SignComponent::Orientation, _) => &[FeatureKind::Palm],
-        _ => &[],
-    };
-    let sure = |reading: &TranscribedFeature| {
-        let (first, second) = (reading.value.residual, reading.runner_up.as_ref()?.residual);
-        // Two residuals of 0 divide zero by zero; the second is never better than the first.
-        let share = second / (first + second);
-        share.is_finite().then_some(share.clamp(0.5, 1.0))
-    };
-    let within = |reading: &&TranscribedFeature| !timed || (reading.at_us >= start && reading.at_us < end);
-    let of_kind = features.iter().filter(|reading| kinds.contains(&reading.feature));
-    // A value is as sure as the least sure of the features that it is made of.
-    let least = of_kind.filter(within).filter_map(sure).reduce(f64::min);
-    least.map(|value| (value * 1000.0).round() / 1000.0)
 }
 
 #[cfg(test)]

@@ -3,7 +3,8 @@
 mod transcribe_again;
 
 use chereme_analysis::transcribe::{
-    FeatureKind, NotationFeature, TranscribeOptions, TranscriptionStage, transcribe_clip, transcribe_proven,
+    FeatureKind, HeldReading, NotationFeature, TranscribeOptions, TranscriptionStage, transcribe_clip,
+    transcribe_holds, transcribe_proven,
 };
 use chereme_motion::{BodySide, HandCorrection, TimeSpan};
 use chereme_sign::ErrorRemedy;
@@ -24,6 +25,8 @@ use transcribe_again::ResynthesisBody;
 
 /// The longest stretch that is transcribed as one sign, in seconds.
 const MAX_TRANSCRIBED_SECONDS: f64 = 60.0;
+/// The time before and after a sign that shows how fast its hands come and go, in microseconds.
+const HOLD_SURROUNDINGS_US: i64 = 400_000;
 /// The correction of finger angles above which a finding reports it, in radians.
 const REPORTED_CORRECTION_RADIANS: f64 = 0.15;
 
@@ -147,22 +150,9 @@ impl Corpus {
             None => self.signed_frames(&track, &anatomy, &stretch)?,
         };
         let clip = track.read_motion_clip(connection, frames.clone(), &ChannelGroup::ALL_CHANNEL_GROUPS)?;
-        let usual = match stretch.recording.origin {
-            RecordOrigin::Made => TranscribeOptions::synthesised_options(),
-            _ => TranscribeOptions::default(),
-        };
-        let dominant = self.dominant_side(&stretch)?;
         let rerun = ResynthesisBody::resynthesis_body_of(connection, &stretch)?;
-        let hands = crate::hands::load_hand_corrections(connection, &self.hands, &stretch.recording)?;
-        let options = TranscribeOptions {
-            dominant,
-            hands,
-            longest: MAX_TRANSCRIBED_SECONDS + 1.0,
-            language: rerun
-                .as_ref()
-                .map_or(usual.language, ResynthesisBody::recording_body_language),
-            ..usual
-        };
+        let options = self.transcribe_options(&stretch, rerun.as_ref())?;
+        let (dominant, hands) = (options.dominant, options.hands);
         let outcome = match &rerun {
             Some(again) => {
                 let proving = again.start_resynthesis(progress);
@@ -187,9 +177,8 @@ impl Corpus {
             feature.kind != FeatureKind::Handshape || !assumed.contains(&feature.hand.unwrap_or(dominant))
         };
         let frame_micros = |frame: usize| {
-            clip.clip_frame_rate()
-                .frame_start_instant(frames.start + frame)
-                .instant_micros()
+            let instant = track.rate.frame_start_instant(frames.start + frame);
+            instant.instant_micros() + track.row.offset_us
         };
         let (first, end) = written.frames;
         Ok(SignTranscription {
@@ -219,6 +208,48 @@ impl Corpus {
             assumed,
             findings,
         })
+    }
+
+    /// Returns the settings for a stretch: those of its origin, its signer and, if it was generated, its animator.
+    fn transcribe_options(
+        &self,
+        stretch: &RecordingStretch,
+        rerun: Option<&ResynthesisBody>,
+    ) -> CorpusResult<TranscribeOptions> {
+        let usual = match stretch.recording.origin {
+            RecordOrigin::Made => TranscribeOptions::synthesised_options(),
+            _ => TranscribeOptions::default(),
+        };
+        Ok(TranscribeOptions {
+            dominant: self.dominant_side(stretch)?,
+            hands: crate::hands::load_hand_corrections(self.store.read_connection(), &self.hands, &stretch.recording)?,
+            longest: MAX_TRANSCRIBED_SECONDS + 1.0,
+            language: rerun.map_or(usual.language, ResynthesisBody::recording_body_language),
+            ..usual
+        })
+    }
+
+    /// Returns the postures of a sign in a stretch at the holds of each hand; their times count from the recording's start.
+    pub(crate) fn stretch_holds(&self, stretch: &RecordingStretch, sign: TimeSpan) -> CorpusResult<Vec<HeldReading>> {
+        let connection = self.store.read_connection();
+        let track = MotionTrack::open_motion_track(connection, stretch.recording.id)?;
+        let anatomy = track.track_anatomy(connection)?;
+        let take = crate::hands::usable_take(connection, &self.hands, &stretch.recording)?;
+        let wide = TimeSpan::span_between(
+            sign.span_start_instant().shifted_instant(-HOLD_SURROUNDINGS_US),
+            sign.span_end_instant().shifted_instant(HOLD_SURROUNDINGS_US),
+        );
+        let frames = take.usable_frames_within(track.frames_in(wide));
+        let offset = track.rate.frame_start_instant(frames.start).instant_micros() + track.row.offset_us;
+        let clip = track.read_motion_clip(connection, frames, &ChannelGroup::ALL_CHANNEL_GROUPS)?;
+        let rerun = ResynthesisBody::resynthesis_body_of(connection, stretch)?;
+        let options = self.transcribe_options(stretch, rerun.as_ref())?;
+        let holds = transcribe_holds(&clip, &anatomy, &options, sign.shifted_span(-offset));
+        let mut holds = holds.map_err(|error| CorpusError::from_wrong_message(error.to_string()))?;
+        for reading in &mut holds {
+            reading.held.span = reading.held.span.shifted_span(offset);
+        }
+        Ok(holds)
     }
 
     /// Transcribes a token as [`transcribe`](Self::transcribe_movement) does, and stores the result as its notation. Keeps the

@@ -5,6 +5,7 @@ use std::ops::Range;
 use chereme_motion::{RecordingInstant, TimeSpan};
 
 use super::SampledSign;
+use super::channel_holds::HandChannel;
 use super::cut_curves::{CURVE_RATE, HandCurve, TakeCurves};
 use super::cut_tuned::tuned;
 
@@ -116,26 +117,9 @@ fn end_of_way(speed: &[f64], samples: impl Iterator<Item = usize> + Clone) -> us
 
 /// Divides a sign of a hand into holds, in which place, palm and fingers are held, and strokes.
 fn strokes_and_holds(hand: &HandCurve, samples: &Range<usize>) -> Vec<(PhaseKind, Range<usize>)> {
-    let numbers = &tuned().holds;
-    let around = (tuned().activity.around * CURVE_RATE).round() as usize;
-    let near = samples.start.saturating_sub(around)..(samples.end + around).min(hand.speed.len());
-    let channels = [
-        (&hand.speed, numbers.place),
-        (&hand.palm_speed, numbers.turn),
-        (&hand.finger_speed, numbers.turn),
-    ];
-    let limits = channels.map(|(speed, limit)| {
-        let peak = speed[near.clone()].iter().copied().fold(0.0, f64::max);
-        // A slow signer holds at slower speeds, but never below a share of the usual limit.
-        limit.min(numbers.peak * peak).max(numbers.least * limit)
-    });
-    let is_held = |sample: usize| {
-        channels
-            .iter()
-            .zip(limits)
-            .all(|((speed, _), limit)| speed[sample] < limit)
-    };
-    let shortest = (numbers.shortest * CURVE_RATE).round() as usize;
+    let channels = HandChannel::ALL_CHANNELS.map(|channel| channel.speed_and_limit(hand, samples));
+    let is_held = |sample: usize| channels.iter().all(|(speed, limit)| speed[sample] < *limit);
+    let shortest = (tuned().holds.shortest * CURVE_RATE).round() as usize;
     let mut pieces: Vec<(PhaseKind, Range<usize>)> = Vec::new();
     let mut start = samples.start;
     while start < samples.end {

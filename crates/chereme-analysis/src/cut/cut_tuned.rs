@@ -49,6 +49,11 @@ tuned_numbers! {
         least: f64,
         shortest: f64,
         moving: f64,
+        same: [f64; 3],
+        other: [f64; 3],
+        sure: f64,
+        unheld: f64,
+        edge: f64,
     }
     /// Numbers for confidence.
     confidence: ConfidenceNumbers {

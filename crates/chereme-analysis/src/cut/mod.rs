@@ -12,6 +12,7 @@
 //! A sign begins when its posture is reached, and ends with its last hold. The weights were learned on generated signing;
 //! README.md says what they reach, and on what. All numbers lie in `schema/cutting.json`.
 
+mod channel_holds;
 mod cut_curves;
 mod cut_phases;
 mod cut_tuned;
@@ -26,6 +27,7 @@ use std::ops::Range;
 use chereme_motion::{BodyAnatomy, BodySide, Clip, RecordingInstant, TimeSpan};
 use serde::Serialize;
 
+pub use channel_holds::{ChannelPosture, HandChannel, find_channel_postures};
 use cut_curves::{CURVE_RATE, TakeCurves};
 pub use cut_phases::{HandPhase, PhaseKind};
 use cut_tuned::tuned;

@@ -43,11 +43,13 @@ mod table_tests;
 #[cfg(test)]
 pub(crate) mod tests;
 
-use chereme_motion::{BodyAnatomy, BodySide, Clip, HandCorrection};
+use chereme_motion::{BodyAnatomy, BodySide, Clip, HandCorrection, TimeSpan};
 use chereme_sign::hamnosys::{BodyLanguage, BodyPlace, HamnosysSign, NonmanualActs, NotatedSign};
 use serde::Serialize;
 
 pub use resynthesis::MOST_TRIALS;
+pub use resynthesis::replaced::list_single_acts;
+pub use transcribe_tree::HeldReading;
 
 use transcribe_tuned::tuned;
 
@@ -342,26 +344,55 @@ fn looked_at(
         None => denoise::steady_trembling_clip(clip),
     };
     let clip = steadied.as_ref().map_or(clip, |steadied| &steadied.clip);
-    let scene = transcribe_scene::SignerScene::read_signer_scene(clip, anatomy, options)?;
-    let sight = transcribe_tree::SceneReadings::new(&scene, options);
-    let slack = precision::expected_place_slack(&scene, &sight);
-    // Hands as exact as synthesised ones are read again, with less slack about places.
-    let mut transcription = if options.slack > slack {
-        let closer = TranscribeOptions {
-            slack,
-            ..options.clone()
-        };
-        let scene = transcribe_scene::SignerScene::read_signer_scene(clip, anatomy, &closer)?;
-        resynthesis::write_verified_notation(&transcribe_tree::SceneReadings::new(&scene, &closer), performs)
-    } else {
-        resynthesis::write_verified_notation(&sight, performs)
-    };
+    let mut transcription = read_scene(clip, anatomy, options, |sight| {
+        resynthesis::write_verified_notation(sight, performs)
+    })?;
     if let Some(denoise::SteadiedClip { most, joints, .. }) = steadied {
         transcription.findings.push(format!(
             "{joints} joints tremble from frame to frame, by {most:.1}° at most: they were smoothed"
         ));
     }
     Ok(transcription)
+}
+
+/// Reads the readings of a scene by a function; hands as exact as synthesised ones are read with less slack about places.
+fn read_scene<T>(
+    clip: &Clip,
+    anatomy: &BodyAnatomy,
+    options: &TranscribeOptions,
+    read: impl for<'s> FnOnce(&'s transcribe_tree::SceneReadings<'s>) -> T,
+) -> Result<T, TranscribeError> {
+    let scene = transcribe_scene::SignerScene::read_signer_scene(clip, anatomy, options)?;
+    let sight = transcribe_tree::SceneReadings::new(&scene, options);
+    let slack = precision::expected_place_slack(&scene, &sight);
+    if options.slack <= slack {
+        return Ok(read(&sight));
+    }
+    let closer = TranscribeOptions {
+        slack,
+        ..options.clone()
+    };
+    let scene = transcribe_scene::SignerScene::read_signer_scene(clip, anatomy, &closer)?;
+    Ok(read(&transcribe_tree::SceneReadings::new(&scene, &closer)))
+}
+
+/// Returns the postures of a sign at its holds: fingers, place and palm of each hand, each at its own time.
+///
+/// `sign` counts from the clip's first frame, and the clip should show 0.4 s on both sides of it.
+///
+/// # Errors
+/// The same as [`transcribe_clip`]'s.
+pub fn transcribe_holds(
+    clip: &Clip,
+    anatomy: &BodyAnatomy,
+    options: &TranscribeOptions,
+    sign: TimeSpan,
+) -> Result<Vec<HeldReading>, TranscribeError> {
+    let steadied = denoise::steady_trembling_clip(clip);
+    let clip = steadied.as_ref().map_or(clip, |steadied| &steadied.clip);
+    read_scene(clip, anatomy, options, |sight| {
+        transcribe_tree::read_held_postures(sight, sign)
+    })
 }
 
 /// Returns whether two handshapes look the same: their angles differ by less than a degree, which is below

@@ -164,6 +164,15 @@ impl HandFormTable {
                 best_form = tried;
             }
         }
+        let tied = all.clone().filter(|&n| {
+            let shape = &self.entries[n].shape;
+            score(n) <= best_form.score * (1.0 + tuned().shape.tie) && mark_count(shape) < mark_count(&best_form.shape)
+        });
+        let plainest = tied.min_by_key(|&n| mark_count(&self.entries[n].shape));
+        if let Some(n) = plainest {
+            best_form.shape = self.entries[n].shape.clone();
+            best_form.residual = residuals[n];
+        }
         let runner_up = all
             .filter(|&n| !has_common_form(&self.entries[n].shape, &best_form.shape))
             .min_by(|&a, &b| score(a).total_cmp(&score(b)))
@@ -260,6 +269,12 @@ struct ScoredForm {
 pub(super) fn is_same(a: &Handshape, b: &Handshape, language: &BodyLanguage) -> bool {
     let degrees = |shape| hand_angles(shape, language).to_array().map(f64::to_degrees);
     mean_angle_difference(&degrees(a), &degrees(b)) < ALIKE_POSTURE_DEGREES
+}
+
+/// Returns how many bends, second forms, special digits and exceptions a handshape is written with.
+fn mark_count(shape: &Handshape) -> usize {
+    let bends = shape.bends.iter().chain([&shape.form.bend]).flatten().count();
+    bends + usize::from(shape.between.is_some()) + usize::from(!shape.special.is_empty())
 }
 
 /// Returns whether two handshapes have a form in common.
@@ -393,8 +408,12 @@ impl KnownHandAngles {
         (sum / self.0.iter().sum::<f64>().max(1e-9)).sqrt()
     }
 
+    /// Returns the share of a whole hand's weights that the skeleton shows.
+    pub(super) fn known_weight_share(&self) -> f64 {
+        self.0.iter().sum::<f64>() / Self::whole_hand_weights().0.iter().sum::<f64>()
+    }
+
     /// A hand that has every joint.
-    #[cfg(test)]
     fn whole_hand_weights() -> Self {
         let mut weights = [0.0; HandAngles::HAND_ANGLE_COUNT];
         weights[..5].copy_from_slice(&tuned().shape.thumb);

@@ -3,6 +3,7 @@
 mod manner;
 mod readings;
 mod record;
+mod tree_held;
 mod tree_motion;
 mod tree_posture;
 
@@ -37,6 +38,8 @@ use super::{
 };
 use crate::transcribe::transcribe_tuned::tuned;
 pub(super) use readings::SceneReadings;
+pub use tree_held::HeldReading;
+pub(super) use tree_held::read_held_postures;
 use tree_posture::circling_lag_offset;
 pub(super) use tree_posture::{PlaceNotation, placeless_constellation};
 

@@ -39,6 +39,7 @@ tuned_numbers! {
         tried: usize,
         odd: f64,
         costs: [f64; 3],
+        tie: f64,
     }
     /// Numbers for orientations.
     aim: AimNumbers {

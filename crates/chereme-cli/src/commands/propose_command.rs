@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use anyhow::Result;
 use chereme_corpus::{
     AcceptanceResult, CorpusAddress, DetectOptions, ProposalChoice, ProposalResult, ProposeOptions, ProposeScope,
+    ProposedCoding,
 };
 use chereme_sign::SignComponent;
 
@@ -13,8 +14,9 @@ use crate::output::{CommandOutput, with_progress_bar};
 
 /// Propose values of a component from movement, for tokens without a value of it; or run a detector on recordings
 ///
-/// The movement of each token is transcribed, and the values are written on separate tiers, such as "configuration
-/// dominant (proposed)", as annotations of a detector. They do not count in searches, counts, statistics, recipes and
+/// Handshape, place and palm of each hand are read where they are held, each in the time of its own hold, and movements in
+/// the time of their acts. The values are written on separate tiers, such as "configuration dominant (proposed)", as
+/// annotations of a detector; "moving" says that nothing is held there. They do not count in searches, counts, statistics, recipes and
 /// exports of tokens until a person accepts them; the condition `proposed:yes` reads them. A call is one operation, which
 /// `undo` takes back. Ctrl-C stops it and leaves the corpus as it was.
 ///
@@ -24,8 +26,9 @@ use crate::output::{CommandOutput, with_progress_bar};
 /// proposals are removed. Without numbers all are accepted, or those of a component, --for, --tier and --confidence.
 ///
 /// `--json` gives "tokens" and "annotations", the numbers of those that were written, "unread", the number of tokens
-/// whose movement could not be transcribed, "recordings", the names of those with new annotations, and "by_confidence", the
-/// numbers of annotations for each tenth of confidence. With --accept it gives what `annotate` gives, and "left", the number
+/// whose movement could not be transcribed, "recordings", the names of those with new annotations, "by_confidence", the
+/// numbers of annotations for each tenth of confidence, and "codings", the values, each with "token", "gloss", "field",
+/// "value", "start_us", "end_us", "confidence", "is_moving" if nothing is held, and "runner_up" in words of notation. With --accept it gives what `annotate` gives, and "left", the number
 /// of proposals for which there is no room. With --detector it gives what `detect` gives.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
@@ -57,6 +60,32 @@ pub(crate) struct ProposeArgs {
     /// Accept those with this confidence or more, from 0 to 1
     #[arg(long, value_name = "NUMBER", requires = "accept")]
     confidence: Option<f64>,
+}
+
+/// The most values that are listed; more are counted.
+const MOST_SHOWN_CODINGS: usize = 60;
+
+fn print_proposed_codings(codings: &[ProposedCoding], output: &mut CommandOutput) -> Result<()> {
+    let seconds = |micros: i64| micros as f64 / 1e6;
+    let moving = output.translate_message("moving");
+    output.write_item_table(
+        codings,
+        &[
+            ("gloss", &|coding| coding.gloss.clone()),
+            ("field", &|coding| coding.field.clone()),
+            ("value", &|coding| coding.value.clone()),
+            ("seconds", &|coding| {
+                let times = format!("{:.2}-{:.2}", seconds(coding.start_us), seconds(coding.end_us));
+                if coding.is_moving {
+                    format!("{times} ({moving})")
+                } else {
+                    times
+                }
+            }),
+            ("confidence", &|coding| format!("{:.2}", coding.confidence)),
+            ("runner-up", &|coding| coding.runner_up.clone().unwrap_or_default()),
+        ],
+    )
 }
 
 pub(super) fn run(cli: &CommandLine, args: &ProposeArgs, output: &mut CommandOutput) -> Result<()> {
@@ -121,6 +150,9 @@ pub(super) fn run(cli: &CommandLine, args: &ProposeArgs, output: &mut CommandOut
             &output.format_counted_noun(proposed.unread, "tokens"),
         ],
     )?;
+    if proposed.codings.len() <= MOST_SHOWN_CODINGS {
+        print_proposed_codings(&proposed.codings, output)?;
+    }
     if !proposed.by_confidence.is_empty() {
         let counts = proposed.by_confidence.iter().rev();
         let counts: Vec<String> = counts.map(|(tenth, count)| format!("{tenth}: {count}")).collect();

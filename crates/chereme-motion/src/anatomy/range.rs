@@ -137,8 +137,10 @@ impl HandRange {
         let zero = if low < BACKWARD_LIMIT_DEGREES[joint] {
             low - BACKWARD_LIMIT_DEGREES[joint]
         } else if (SLIGHT_BEND_DEGREES..=MAX_LAX_DEGREES).contains(&low)
-            // A joint with much range may be laxer when straight than one that hardly moves.
-            || (moves && (SLIGHT_BEND_DEGREES..=LAX_MOVING).contains(&low))
+            // A base joint with much range may be laxer when straight than one that hardly moves, as rigs differ in the
+            // bones before it. The bones on both sides of the other joints show when they are straight: a lone take
+            // that goes from a relaxed hand to a fist shows no straight one.
+            || (moves && joint == 0 && (SLIGHT_BEND_DEGREES..=LAX_MOVING).contains(&low))
         {
             low
         } else {
@@ -267,6 +269,30 @@ mod tests {
             }
         }
         assert!(range(same, 0..=3).is_none(), "too few frames");
+    }
+
+    #[test]
+    fn a_fist_after_a_relaxed_hand_is_closed_though_no_finger_was_straight() {
+        let posture = |degrees: [f64; 3]| HandAngles {
+            fingers: [FingerAngles {
+                spread: 0.0,
+                flexion: degrees.map(f64::to_radians),
+            }; 4],
+            ..HandAngles::default()
+        };
+        let [relaxed, closed] = [[20.0, 38.0, 20.0], [85.0, 80.0, 50.0]];
+        let mut range = HandRange::default();
+        for n in 0..100_u32 {
+            let share = f64::from(n) / 99.0;
+            range.add_hand_posture(&posture(std::array::from_fn(|joint| {
+                relaxed[joint] + share * (closed[joint] - relaxed[joint])
+            })));
+        }
+        let read = range.suggest_hand_correction().correct_hand_angles(&posture(closed));
+        for finger in read.fingers {
+            let share = finger.flexion[1].to_degrees() / FIST_JOINT_DEGREES[1];
+            assert!((0.9..1.1).contains(&share), "{share}");
+        }
     }
 
     #[test]

@@ -58,7 +58,8 @@ pub(in crate::transcribe) fn replace_transcribed_actions(
 }
 
 /// Returns the single acts of actions, in the order of the stages: those of the dominant hand first.
-pub(in crate::transcribe) fn list_single_acts(actions: &[NotatedMotion]) -> Vec<&NotatedMotion> {
+#[must_use]
+pub fn list_single_acts(actions: &[NotatedMotion]) -> Vec<&NotatedMotion> {
     let of = |hand: usize| {
         actions.iter().flat_map(move |action| match &action.kind {
             MotionKind::Split(a, b) => match [a, b][hand].as_deref() {

@@ -1,0 +1,277 @@
+//! Reads the components of a token from its movement: postures at their holds, and movements at the time of their acts.
+
+use std::collections::BTreeSet;
+
+use chereme_analysis::cut::HandChannel;
+use chereme_analysis::transcribe::{FeatureKind, HeldReading, NotationFeature, list_single_acts};
+use chereme_motion::{BodySide, RecordingInstant, TimeSpan};
+use chereme_sign::hamnosys::components::{MappedValue, SignMapper};
+use chereme_sign::hamnosys::{HamnosysSign, HandsUsed, ManualPart, NotatedMotion, NotatedPosture, NotatedSign};
+use chereme_sign::{HandRef, SignComponent};
+
+use super::{ProposalSubject, ProposedValue};
+use crate::Corpus;
+use crate::address::CorpusAddress;
+use crate::error::{CorpusError, CorpusResult};
+use crate::progress::ProgressReceiver;
+use crate::search::SearchHit;
+use crate::transcribe::{SignTranscription, TranscribedFeature};
+
+/// The confidence of a value that has no rival.
+const UNRIVALLED_CONFIDENCE: f64 = 0.6;
+/// The share of a sign for which a place is held if the hand makes no path.
+const STAYING_SHARE: f64 = 0.85;
+/// The kinds of movement that are paths of the hand.
+const PATH_KINDS: [&str; 7] = ["path", "straight", "arc", "circle", "zigzag", "wavy", "spiral"];
+
+/// The components of a token as they were read.
+pub(super) struct TokenCodes {
+    /// The values, in no order.
+    pub(super) values: Vec<(ProposalSubject, ProposedValue)>,
+    /// Whether a handshape is left out because nobody captured it.
+    pub(super) lacks_fingers: bool,
+}
+
+/// The mapping of notation to a corpus's values, for the hands of one signer.
+struct CodeMapper<'i> {
+    mapper: SignMapper<'i>,
+    dominant: BodySide,
+}
+
+impl Corpus {
+    /// Returns the values of components read from a token's movement.
+    pub(super) fn read_token_codes(
+        &self,
+        components: &BTreeSet<SignComponent>,
+        hit: &SearchHit,
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<TokenCodes> {
+        let (Some(start), Some(end), Some(_)) = (hit.start_us, hit.end_us, &hit.recording) else {
+            return Err(CorpusError::from_wrong_message("there is no movement to read"));
+        };
+        let address = CorpusAddress::Token(hit.token);
+        let written = self.transcribe_movement(&address, progress)?;
+        let inventories = self.inventories_now()?;
+        let stretch = crate::address::find_addressed_stretch(self.store.read_connection(), &address)?;
+        let dominant = self.dominant_side(&stretch)?;
+        let mapper = SignMapper::new(inventories.iter().map(|stored| &stored.inventory));
+        let codes = CodeMapper {
+            mapper: mapper.of_left_handed(dominant == BodySide::Left),
+            dominant,
+        };
+        let instant = RecordingInstant::from_micros;
+        let sign = TimeSpan::span_between(instant(written.start_us.max(start)), instant(written.end_us.min(end)));
+        let holds = self.stretch_holds(&stretch, sign)?;
+        let mut values = codes.held_values(&holds);
+        values.extend(codes.movement_values(&written, &holds, sign));
+        values.retain(|((component, ..), _)| components.contains(component));
+        let all = values.len();
+        values.retain(|((component, _, hand), _)| {
+            *component != SignComponent::Configuration || !written.assumed.contains(&codes.hand_side(*hand))
+        });
+        let lacks_fingers = values.len() < all;
+        if values.is_empty() && !lacks_fingers {
+            return Err(CorpusError::from_wrong_message("no component was seen"));
+        }
+        Ok(TokenCodes { values, lacks_fingers })
+    }
+}
+
+impl CodeMapper<'_> {
+    fn hand_side(&self, hand: HandRef) -> BodySide {
+        let left_handed = self.dominant == BodySide::Left;
+        match hand {
+            HandRef::Right => BodySide::Right,
+            HandRef::Left => BodySide::Left,
+            HandRef::Dominant => self.dominant,
+            HandRef::Weak if left_handed => BodySide::Right,
+            HandRef::Weak => BodySide::Left,
+        }
+    }
+
+    /// Returns the values of a posture and acts of the hands, with the hand that each belongs to.
+    fn map_hand_values(
+        &self,
+        hands: HandsUsed,
+        posture: &NotatedPosture,
+        actions: Vec<NotatedMotion>,
+    ) -> Vec<(HandRef, MappedValue)> {
+        let part = ManualPart {
+            hands,
+            posture: posture.clone(),
+            actions,
+            ..ManualPart::default()
+        };
+        let notated = NotatedSign {
+            sign: HamnosysSign { parts: vec![part] },
+            ..NotatedSign::default()
+        };
+        let values = self.mapper.map_sign_components(&notated).values;
+        values
+            .into_iter()
+            .filter_map(|value| Some((value.field.hand?, value)))
+            .collect()
+    }
+
+    /// Returns the values of postures at their holds.
+    fn held_values(&self, holds: &[HeldReading]) -> Vec<(ProposalSubject, ProposedValue)> {
+        let mut values = Vec::new();
+        for reading in holds {
+            let channel = match reading.channel {
+                HandChannel::Fingers => SignComponent::Configuration,
+                HandChannel::Place => SignComponent::Placement,
+                HandChannel::Palm => SignComponent::Orientation,
+            };
+            let is_shared = matches!(reading.hands, HandsUsed::Both(_));
+            for (hand, mapped) in self.map_hand_values(reading.hands, &reading.posture, Vec::new()) {
+                let is_own = is_shared || self.hand_side(hand) == reading.hand;
+                if mapped.field.component != channel || !is_own {
+                    continue;
+                }
+                let subject = (channel, mapped.field.feature, hand);
+                let kinds = feature_kinds(&subject);
+                let of_hand = |feature: &&NotationFeature| feature.hand.is_none_or(|side| side == reading.hand);
+                let rivals = reading.features.iter().filter(of_hand).filter_map(|feature| {
+                    let next = feature.runner_up.as_ref().filter(|_| kinds.contains(&feature.kind))?;
+                    Some((feature.residual, next.residual, next.value.as_str()))
+                });
+                let (margin, runner_up) = least_margin(rivals);
+                let shown = if channel == SignComponent::Configuration {
+                    reading.shown
+                } else {
+                    1.0
+                };
+                values.push((
+                    subject,
+                    ProposedValue {
+                        start: reading.held.span.span_start_instant().instant_micros(),
+                        end: reading.held.span.span_end_instant().instant_micros(),
+                        value: mapped.value,
+                        confidence: rounded_confidence(reading.held.confidence * margin * shown),
+                        is_moving: !reading.held.is_held,
+                        runner_up,
+                    },
+                ));
+            }
+        }
+        values
+    }
+
+    /// Returns the kinds of movement, each in the time of its act; no path of a hand that stays in its place.
+    fn movement_values(
+        &self,
+        written: &SignTranscription,
+        holds: &[HeldReading],
+        sign: TimeSpan,
+    ) -> Vec<(ProposalSubject, ProposedValue)> {
+        let Some(part) = written.sign.parts.first() else {
+            return Vec::new();
+        };
+        let stays = |hand: HandRef| {
+            let places = holds.iter().filter(|reading| reading.channel == HandChannel::Place);
+            let is_of_both = |reading: &HeldReading| matches!(reading.hands, HandsUsed::Both(_));
+            let mut own = places.filter(|reading| is_of_both(reading) || reading.hand == self.hand_side(hand));
+            own.any(|reading| reading.held.is_held && reading.held.share > STAYING_SHARE)
+        };
+        let whole = sign.span_start_instant().instant_micros()..sign.span_end_instant().instant_micros();
+        let acts = list_single_acts(&part.actions);
+        let mut values = Vec::new();
+        for (stage, act) in written.stages.iter().skip(1).zip(acts) {
+            let hands = match stage.hand {
+                None => part.hands,
+                Some(side) if side == self.dominant => HandsUsed::Dominant,
+                Some(_) => HandsUsed::Nondominant,
+            };
+            let mapped = self.map_hand_values(hands, &part.posture, vec![act.clone()]);
+            for hand in [HandRef::Dominant, HandRef::Weak] {
+                let is_kind = |(own, value): &&(HandRef, MappedValue)| {
+                    let is_path = PATH_KINDS.contains(&value.value.as_str());
+                    *own == hand && is_movement_kind(value) && !(is_path && stays(hand))
+                };
+                let kinds: Vec<&MappedValue> = mapped.iter().filter(is_kind).map(|(_, value)| value).collect();
+                let of_act = |feature: &&TranscribedFeature| {
+                    feature.action == stage.action
+                        && feature
+                            .hand
+                            .is_none_or(|side| Some(side) == stage.hand || stage.hand.is_none())
+                };
+                let (margin, runner_up) = transcribed_margin(written.features.iter().filter(of_act));
+                let (start, end) = (stage.start_us.max(whole.start), stage.end_us.min(whole.end));
+                // Annotations of one tier cannot overlap: what a hand does at once shares the time of the act.
+                let part_time = |part: usize| start + (end - start).max(0) * part as i64 / kinds.len() as i64;
+                values.extend(kinds.iter().enumerate().map(|(nth, kind)| {
+                    let proposed = ProposedValue {
+                        start: part_time(nth),
+                        end: part_time(nth + 1),
+                        value: kind.value.clone(),
+                        confidence: rounded_confidence(margin),
+                        is_moving: false,
+                        runner_up: runner_up.clone(),
+                    };
+                    ((SignComponent::Movement, None, hand), proposed)
+                }));
+            }
+        }
+        for (hand, still) in self.map_hand_values(part.hands, &part.posture, Vec::new()) {
+            let subject = (SignComponent::Movement, None, hand);
+            if is_movement_kind(&still) && values.iter().all(|(known, _)| *known != subject) {
+                let proposed = ProposedValue {
+                    start: whole.start,
+                    end: whole.end,
+                    value: still.value,
+                    confidence: rounded_confidence(UNRIVALLED_CONFIDENCE),
+                    is_moving: false,
+                    runner_up: None,
+                };
+                values.push((subject, proposed));
+            }
+        }
+        values
+    }
+}
+
+fn is_movement_kind(value: &MappedValue) -> bool {
+    value.field.component == SignComponent::Movement && value.field.feature.is_none()
+}
+
+fn rounded_confidence(confidence: f64) -> f64 {
+    (confidence.clamp(0.0, 1.0) * 1000.0).round() / 1000.0
+}
+
+/// Returns the kinds of features of notation that a value is made of.
+fn feature_kinds((component, feature, _): &ProposalSubject) -> &'static [FeatureKind] {
+    match (component, feature.as_deref()) {
+        (SignComponent::Configuration, _) => &[FeatureKind::Handshape],
+        (SignComponent::Placement, _) => &[FeatureKind::Location, FeatureKind::Contact],
+        (SignComponent::Movement, _) => &[FeatureKind::Movement, FeatureKind::Course],
+        (SignComponent::Orientation, Some("fingers")) => &[FeatureKind::Direction],
+        (SignComponent::Orientation, _) => &[FeatureKind::Palm],
+        _ => &[],
+    }
+}
+
+fn transcribed_margin<'f>(features: impl Iterator<Item = &'f TranscribedFeature>) -> (f64, Option<String>) {
+    let kinds = feature_kinds(&(SignComponent::Movement, None, HandRef::Dominant));
+    least_margin(
+        features
+            .filter(|feature| kinds.contains(&feature.feature))
+            .filter_map(|feature| {
+                let next = feature.runner_up.as_ref()?;
+                Some((feature.value.residual, next.residual, next.value.as_str()))
+            }),
+    )
+}
+
+/// Returns how surely a value is better than its nearest rival, from 0.5 to 1, and that rival: of the features that it is
+/// made of, each with its residual, its rival's and its rival, the least sure one counts.
+fn least_margin<'f>(rivals: impl Iterator<Item = (f64, f64, &'f str)>) -> (f64, Option<String>) {
+    let margins = rivals.filter_map(|(own, other, rival)| {
+        // Two residuals of 0 divide zero by zero; the second is never better than the first.
+        let share = other / (own + other);
+        share.is_finite().then_some((share.clamp(0.5, 1.0), rival))
+    });
+    match margins.min_by(|a, b| a.0.total_cmp(&b.0)) {
+        Some((margin, rival)) => (margin, Some(rival.to_owned())),
+        None => (UNRIVALLED_CONFIDENCE, None),
+    }
+}
