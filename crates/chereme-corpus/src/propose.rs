@@ -798,6 +798,15 @@ mod tests {
         let proposed = corpus.propose_components(&options, &mut progress).expect("proposed");
         assert!(proposed.annotations > 3, "{proposed:?}");
         assert_eq!(proposed.by_confidence.values().sum::<u64>(), proposed.annotations);
+        assert_eq!(proposed.by_confidence.get("unknown"), None, "each has a confidence");
+        let is_timed = |coding: &ProposedCoding| 0 <= coding.start_us && coding.start_us < coding.end_us;
+        assert!(proposed.codings.iter().all(is_timed), "{:?}", proposed.codings);
+        let unread = "signs that cannot be read (there is no movement to read): A, B, C, D";
+        assert!(
+            proposed.findings.iter().any(|finding| finding == unread),
+            "{:?}",
+            proposed.findings
+        );
         assert_eq!(figures(&mut corpus), before);
         let again = corpus.propose_components(&options, &mut progress).expect("proposed");
         assert_eq!(again.annotations, 0, "what is proposed is not proposed again");

@@ -60,6 +60,8 @@ pub struct ChannelPosture {
     pub is_held: bool,
     /// The share of the sign from the beginning to the end of the hold.
     pub share: f64,
+    /// The greatest difference from the posture in the sign, in arm lengths for a place, else in degrees.
+    pub reach: f64,
     /// The confidence, from 0 to 1, by the length of the hold and the spread in it.
     pub confidence: f64,
 }
@@ -102,6 +104,10 @@ pub fn find_channel_postures(
                 moment: instant(posture.moment),
                 is_held: posture.is_held,
                 share: posture.samples.len() as f64 / samples.len() as f64,
+                reach: {
+                    let away = |sample| channel.sample_difference(hand, posture.moment, sample);
+                    samples.clone().map(away).fold(0.0, f64::max)
+                },
                 confidence: posture.confidence,
             };
             postures.iter().map(timed).collect()
@@ -129,14 +135,17 @@ fn sampled_postures(hand: &HandCurve, channel: HandChannel, sign: &Range<usize>)
             confidence: numbers.unheld * limit / (limit + speed[moment]),
         }
     };
-    // A hand on its way is at no place yet, but its shape on the way to the first hold is seen.
-    let is_needed = |nearest: Option<bool>| nearest.is_none_or(|is_far| is_far && channel != HandChannel::Place);
-    let is_late = postures.first().map(|first| first.samples.start >= begin.end);
-    let is_early = postures.last().map(|last| last.samples.end <= end.start);
-    if is_needed(is_late) {
-        postures.insert(0, slowest(begin));
+    let is_place = channel == HandChannel::Place;
+    let is_late = postures.first().is_none_or(|first| first.samples.start >= begin.end);
+    let is_early = postures.last().is_none_or(|last| last.samples.end <= end.start);
+    if is_late {
+        // A sign that is not held at first has its place where it begins.
+        let mut first = slowest(begin.clone());
+        first.moment = if is_place { begin.start } else { first.moment };
+        postures.insert(0, first);
     }
-    if is_needed(is_early) {
+    // A hand that passes through a place does not end there.
+    if is_early && !is_place {
         postures.push(slowest(end));
     }
     let (Some(first), Some(last)) = (postures.first(), postures.last()) else {
@@ -227,7 +236,10 @@ mod tests {
         };
         // The shape changes at 0.77 s; the curves are smoothed by a bell of 40 ms.
         let ([_, until], [from, _]) = (seconds_of(open.span), seconds_of(closed.span));
-        assert!(until > 0.6 && until < 0.77 && from > 0.77 && from < 0.93, "{until} {from}");
+        assert!(
+            until > 0.6 && until < 0.77 && from > 0.77 && from < 0.93,
+            "{until} {from}"
+        );
         assert!(open.is_held && closed.is_held && open.confidence > 0.9);
     }
 
@@ -249,13 +261,19 @@ mod tests {
             let class = if share < 0.4 { HandClass::Flat } else { HandClass::Fist };
             held_hand(class).moved(DVec3::Y * (0.2 * ease(((share - 0.3) / 0.4).clamp(0.0, 1.0))))
         };
-        let ways = [right_hand_postures(there), right_hand_postures(|share| there(1.0 - share))];
+        let ways = [
+            right_hand_postures(there),
+            right_hand_postures(|share| there(1.0 - share)),
+        ];
         let whole = 92.0 / 60.0;
         for (one, other) in ways[0].iter().zip(&ways[1]) {
             assert_eq!(one.len(), other.len());
             for (a, b) in one.iter().zip(other.iter().rev()) {
                 let ([from, to], [start, end]) = (seconds_of(a.span), seconds_of(b.span));
-                assert!((from - (whole - end)).abs() < 0.05 && (to - (whole - start)).abs() < 0.05, "{a:?} {b:?}");
+                assert!(
+                    (from - (whole - end)).abs() < 0.05 && (to - (whole - start)).abs() < 0.05,
+                    "{a:?} {b:?}"
+                );
                 assert!((a.confidence - b.confidence).abs() < 0.1, "{a:?} {b:?}");
             }
         }

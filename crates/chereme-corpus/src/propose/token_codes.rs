@@ -19,8 +19,9 @@ use crate::transcribe::{SignTranscription, TranscribedFeature};
 
 /// The confidence of a value that has no rival.
 const UNRIVALLED_CONFIDENCE: f64 = 0.6;
-/// The share of a sign for which a place is held if the hand makes no path.
+/// The share of a sign for which a place is held, and how far the hand goes from it in arm lengths, if it makes no path.
 const STAYING_SHARE: f64 = 0.85;
+const STAYING_REACH: f64 = 0.05;
 /// The kinds of movement that are paths of the hand.
 const PATH_KINDS: [&str; 7] = ["path", "straight", "arc", "circle", "zigzag", "wavy", "spiral"];
 
@@ -147,7 +148,10 @@ impl CodeMapper<'_> {
                         start: reading.held.span.span_start_instant().instant_micros(),
                         end: reading.held.span.span_end_instant().instant_micros(),
                         value: mapped.value,
-                        confidence: rounded_confidence(reading.held.confidence * margin * shown),
+                        confidence: rounded_confidence(match reading.held.is_held {
+                            true => (reading.held.confidence * margin).sqrt() * shown,
+                            false => reading.held.confidence * margin * shown,
+                        }),
                         is_moving: !reading.held.is_held,
                         runner_up,
                     },
@@ -171,7 +175,10 @@ impl CodeMapper<'_> {
             let places = holds.iter().filter(|reading| reading.channel == HandChannel::Place);
             let is_of_both = |reading: &HeldReading| matches!(reading.hands, HandsUsed::Both(_));
             let mut own = places.filter(|reading| is_of_both(reading) || reading.hand == self.hand_side(hand));
-            own.any(|reading| reading.held.is_held && reading.held.share > STAYING_SHARE)
+            own.any(|reading| {
+                let held = reading.held;
+                held.is_held && held.share > STAYING_SHARE && held.reach < STAYING_REACH
+            })
         };
         let whole = sign.span_start_instant().instant_micros()..sign.span_end_instant().instant_micros();
         let acts = list_single_acts(&part.actions);
@@ -186,7 +193,9 @@ impl CodeMapper<'_> {
             for hand in [HandRef::Dominant, HandRef::Weak] {
                 let is_kind = |(own, value): &&(HandRef, MappedValue)| {
                     let is_path = PATH_KINDS.contains(&value.value.as_str());
-                    *own == hand && is_movement_kind(value) && !(is_path && stays(hand))
+                    let is_of_act = *own == hand && stage.hand.is_none_or(|side| side == self.hand_side(hand));
+                    // An act that only leads to a place moves nothing that has a name.
+                    is_of_act && is_movement_kind(value) && value.value != "hold" && !(is_path && stays(hand))
                 };
                 let kinds: Vec<&MappedValue> = mapped.iter().filter(is_kind).map(|(_, value)| value).collect();
                 let of_act = |feature: &&TranscribedFeature| {
