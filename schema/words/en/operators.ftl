@@ -171,3 +171,4 @@ operator-setting-to-spot = to
 operator-setting-from-time = from
 operator-setting-to-time = to
 operator-setting-size = Size
+operator-setting-body = Body

@@ -171,3 +171,4 @@ operator-setting-to-spot = à
 operator-setting-from-time = à partir de
 operator-setting-to-time = jusqu’à
 operator-setting-size = Ampleur
+operator-setting-body = Corps

@@ -113,6 +113,9 @@ impl StepOperator for OnBodySettings {
 
     fn operator_form_fields(&mut self) -> Vec<FieldSetting<'_>> {
         let field = OperatorField::Body(&mut self.body);
-        vec![FieldSetting::new(InterfaceText::new("Body", "Corps"), field)]
+        vec![FieldSetting::new(
+            InterfaceText::from_id("operator-setting-body"),
+            field,
+        )]
     }
 }
