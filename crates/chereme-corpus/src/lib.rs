@@ -188,7 +188,8 @@ pub use picture::picture_values as value_pictures;
 pub use picture::{DisplayedMovement, DrawablePerformance, DrawnPicture, PictureOptions, draw_clip};
 pub use progress::{ProgressListener, ProgressReceiver, ProgressStep, ProgressUnit, ignore_progress_step};
 pub use propose::{
-    AcceptanceResult, ProposalChoice, ProposalResult, ProposeOptions, ProposeScope, ProposedCoding, accepting_tier,
+    AcceptanceResult, ProposalChoice, ProposalResult, ProposeOptions, ProposeScope, ProposedCoding, ProposedValue,
+    accepting_tier,
 };
 pub use publish::{LeftOutPart, LeftOutSigns, PublishOptions, PublishedDictionary};
 pub use recombine::{MadePart, NotationFinding, RecombinationResult, TimedNote};

@@ -151,16 +151,6 @@ pub(crate) fn proposal_tier(field: &ComponentField) -> String {
     )
 }
 
-/// A value of a token to be written.
-struct ProposedValue {
-    start: i64,
-    end: i64,
-    value: String,
-    confidence: f64,
-    is_moving: bool,
-    runner_up: Option<String>,
-}
-
 /// A value that is proposed for a token.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ProposedCoding {
@@ -170,6 +160,14 @@ pub struct ProposedCoding {
     pub gloss: String,
     /// The component, with its hand, such as `dominant.configuration`.
     pub field: String,
+    /// The value with its time.
+    #[serde(flatten)]
+    pub proposed: ProposedValue,
+}
+
+/// A value of a component, with its time.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ProposedValue {
     /// The value.
     pub value: String,
     /// The start of the hold or act, in microseconds from the start of the recording.
@@ -194,12 +192,7 @@ impl ProposedCoding {
             token: hit.token,
             gloss: hit.gloss.clone(),
             field: field.to_string(),
-            value: value.value.clone(),
-            start_us: value.start,
-            end_us: value.end,
-            confidence: value.confidence,
-            is_moving: value.is_moving,
-            runner_up: value.runner_up.clone(),
+            proposed: value.clone(),
         }
     }
 }
@@ -655,20 +648,20 @@ impl Corpus {
                 new.hand = Some(AnnotatedHands::One(hand));
                 tiers.push(new);
             }
-            values.sort_by_key(|value| value.start);
+            values.sort_by_key(|value| value.start_us);
             for value in values {
                 // Signs of two hands may overlap; annotations of one tier may not.
-                let start = value.start.max(end.unwrap_or(i64::MIN));
-                if start >= value.end {
+                let start = value.start_us.max(end.unwrap_or(i64::MIN));
+                if start >= value.end_us {
                     continue;
                 }
-                end = Some(value.end);
+                end = Some(value.end_us);
                 let time = |micros| Some(TableMoment::Time(RecordingInstant::from_micros(micros)));
                 changes.push(
                     AnnotationAction::Add {
                         tier: tier.clone(),
                         start: time(start),
-                        end: time(value.end),
+                        end: time(value.end_us),
                         parent: None,
                         order: None,
                         value: value.value,
@@ -799,7 +792,9 @@ mod tests {
         assert!(proposed.annotations > 3, "{proposed:?}");
         assert_eq!(proposed.by_confidence.values().sum::<u64>(), proposed.annotations);
         assert_eq!(proposed.by_confidence.get("unknown"), None, "each has a confidence");
-        let is_timed = |coding: &ProposedCoding| 0 <= coding.start_us && coding.start_us < coding.end_us;
+        let is_timed = |coding: &ProposedCoding| {
+            0 <= coding.proposed.start_us && coding.proposed.start_us < coding.proposed.end_us
+        };
         assert!(proposed.codings.iter().all(is_timed), "{:?}", proposed.codings);
         let unread = "signs that cannot be read (there is no movement to read): A, B, C, D";
         assert!(

@@ -73,17 +73,23 @@ fn print_proposed_codings(codings: &[ProposedCoding], output: &mut CommandOutput
         &[
             ("gloss", &|coding| coding.gloss.clone()),
             ("field", &|coding| coding.field.clone()),
-            ("value", &|coding| coding.value.clone()),
+            ("value", &|coding| coding.proposed.value.clone()),
             ("seconds", &|coding| {
-                let times = format!("{:.2}-{:.2}", seconds(coding.start_us), seconds(coding.end_us));
-                if coding.is_moving {
+                let times = format!(
+                    "{:.2}-{:.2}",
+                    seconds(coding.proposed.start_us),
+                    seconds(coding.proposed.end_us)
+                );
+                if coding.proposed.is_moving {
                     format!("{times} ({moving})")
                 } else {
                     times
                 }
             }),
-            ("confidence", &|coding| format!("{:.2}", coding.confidence)),
-            ("runner-up", &|coding| coding.runner_up.clone().unwrap_or_default()),
+            ("confidence", &|coding| format!("{:.2}", coding.proposed.confidence)),
+            ("runner-up", &|coding| {
+                coding.proposed.runner_up.clone().unwrap_or_default()
+            }),
         ],
     )
 }

@@ -80,13 +80,9 @@ impl Corpus {
 
 impl CodeMapper<'_> {
     fn hand_side(&self, hand: HandRef) -> BodySide {
-        let left_handed = self.dominant == BodySide::Left;
         match hand {
-            HandRef::Right => BodySide::Right,
-            HandRef::Left => BodySide::Left,
-            HandRef::Dominant => self.dominant,
-            HandRef::Weak if left_handed => BodySide::Right,
-            HandRef::Weak => BodySide::Left,
+            HandRef::Weak => self.dominant.opposite_side(),
+            _ => self.dominant,
         }
     }
 
@@ -145,8 +141,8 @@ impl CodeMapper<'_> {
                 values.push((
                     subject,
                     ProposedValue {
-                        start: reading.held.span.span_start_instant().instant_micros(),
-                        end: reading.held.span.span_end_instant().instant_micros(),
+                        start_us: reading.held.span.span_start_instant().instant_micros(),
+                        end_us: reading.held.span.span_end_instant().instant_micros(),
                         value: mapped.value,
                         confidence: rounded_confidence(match reading.held.is_held {
                             true => (reading.held.confidence * margin).sqrt() * shown,
@@ -209,14 +205,8 @@ impl CodeMapper<'_> {
                 // Annotations of one tier cannot overlap: what a hand does at once shares the time of the act.
                 let part_time = |part: usize| start + (end - start).max(0) * part as i64 / kinds.len() as i64;
                 values.extend(kinds.iter().enumerate().map(|(nth, kind)| {
-                    let proposed = ProposedValue {
-                        start: part_time(nth),
-                        end: part_time(nth + 1),
-                        value: kind.value.clone(),
-                        confidence: rounded_confidence(margin),
-                        is_moving: false,
-                        runner_up: runner_up.clone(),
-                    };
+                    let times = [part_time(nth), part_time(nth + 1)];
+                    let proposed = ProposedValue::of_act(times, &kind.value, margin, runner_up.clone());
                     ((SignComponent::Movement, None, hand), proposed)
                 }));
             }
@@ -224,18 +214,25 @@ impl CodeMapper<'_> {
         for (hand, still) in self.map_hand_values(part.hands, &part.posture, Vec::new()) {
             let subject = (SignComponent::Movement, None, hand);
             if is_movement_kind(&still) && values.iter().all(|(known, _)| *known != subject) {
-                let proposed = ProposedValue {
-                    start: whole.start,
-                    end: whole.end,
-                    value: still.value,
-                    confidence: rounded_confidence(UNRIVALLED_CONFIDENCE),
-                    is_moving: false,
-                    runner_up: None,
-                };
+                let times = [whole.start, whole.end];
+                let proposed = ProposedValue::of_act(times, &still.value, UNRIVALLED_CONFIDENCE, None);
                 values.push((subject, proposed));
             }
         }
         values
+    }
+}
+
+impl ProposedValue {
+    fn of_act([start_us, end_us]: [i64; 2], value: &str, confidence: f64, runner_up: Option<String>) -> Self {
+        Self {
+            value: value.to_owned(),
+            start_us,
+            end_us,
+            confidence: rounded_confidence(confidence),
+            is_moving: false,
+            runner_up,
+        }
     }
 }
 

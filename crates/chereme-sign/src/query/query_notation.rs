@@ -1,5 +1,6 @@
 //! Conditions on the notation of a sign: `notation~"hamfinger2 … hamcirclei"`.
 
+use std::collections::BTreeMap;
 use std::fmt::{self, Display, Formatter};
 
 use super::QueryError;
@@ -179,24 +180,18 @@ fn parse_symbol_word(word: &str, at: QueryPlace) -> Result<Vec<SymbolTest>, Quer
             .with_suggestion(near.map(|near| format!("{NOTATION_FIELD}~{near}"))))
     };
     if let Some(class_name) = word.strip_prefix('[').and_then(|word| word.strip_suffix(']')) {
-        let mut symbols = HamnosysSymbol::all_symbols().map(HamnosysSymbol::symbol_class);
-        return match symbols.find(|class| symbol_class_name(*class) == class_name.to_lowercase()) {
-            Some(class) => Ok(vec![SymbolTest::Class(class)]),
-            None => {
-                let mut classes: Vec<_> = HamnosysSymbol::all_symbols()
-                    .map(HamnosysSymbol::symbol_class)
-                    .collect();
-                classes.sort_unstable();
-                classes.dedup();
-                let class_names: Vec<String> = classes.into_iter().map(symbol_class_name).collect();
-                let near = nearest_candidate(class_name, class_names.iter().map(String::as_str));
-                let message = format!(
-                    "no class of symbols is called {class_name:?}: {}",
-                    class_names.join(", ")
-                );
-                refused(message, near.map(|near| format!("[{near}]")).as_deref())
-            }
+        let classes = HamnosysSymbol::all_symbols().map(HamnosysSymbol::symbol_class);
+        let by_name: BTreeMap<String, SymbolClass> = classes.map(|class| (symbol_class_name(class), class)).collect();
+        let Some(class) = by_name.get(&class_name.to_lowercase()) else {
+            let class_names: Vec<&str> = by_name.keys().map(String::as_str).collect();
+            let near = nearest_candidate(class_name, class_names.iter().copied());
+            let message = format!(
+                "no class of symbols is called {class_name:?}: {}",
+                class_names.join(", ")
+            );
+            return refused(message, near.map(|near| format!("[{near}]")).as_deref());
         };
+        return Ok(vec![SymbolTest::Class(*class)]);
     }
     if let Some(start) = word.strip_suffix('*') {
         return match names().any(|name| name.starts_with(start)) {

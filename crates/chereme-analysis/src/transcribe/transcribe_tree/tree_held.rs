@@ -49,10 +49,8 @@ pub(in crate::transcribe) fn read_held_postures<'a>(sight: &'a SceneReadings<'a>
                 let mut writer = NotationWriter::new(sight, PickedReadings::default());
                 let body = sight.cached_body_at(frame);
                 let mut posture = writer.write_first_posture(frame, &relation, body.as_deref());
-                if let (RelationKind::Alike(_), EachHand::Split(Some(own), Some(other))) =
-                    (relation.kind, &posture.shape)
-                {
-                    posture.shape = EachHand::Shared(writer.plainer_shape(frame, own, other));
+                if let (RelationKind::Alike(_), EachHand::Split(Some(own), _)) = (relation.kind, &posture.shape) {
+                    posture.shape = EachHand::Shared(own.clone());
                 }
                 readings.push(HeldReading {
                     hand: track.side,
@@ -67,21 +65,4 @@ pub(in crate::transcribe) fn read_held_postures<'a>(sight: &'a SceneReadings<'a>
         }
     }
     readings
-}
-
-impl NotationWriter<'_> {
-    /// Returns the handshape of two hands that act alike: the one that fits both better.
-    fn plainer_shape(&self, frame: usize, own: &Handshape, other: &Handshape) -> Handshape {
-        let off = |shape: &Handshape| -> f64 {
-            let angles = chereme_sign::hamnosys::angles::hand_angles(shape, self.scene.language);
-            let hands = self.scene.hands.iter().flatten();
-            hands
-                .map(|track| track.known.known_angle_difference(&track.angles[frame], &angles))
-                .sum()
-        };
-        match off(other) < off(own) {
-            true => other.clone(),
-            false => own.clone(),
-        }
-    }
 }
