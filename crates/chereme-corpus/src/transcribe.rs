@@ -244,8 +244,8 @@ impl Corpus {
         let clip = track.read_motion_clip(connection, frames, &ChannelGroup::ALL_CHANNEL_GROUPS)?;
         let rerun = ResynthesisBody::resynthesis_body_of(connection, stretch)?;
         let options = self.transcribe_options(stretch, rerun.as_ref())?;
-        let holds = transcribe_holds(&clip, &anatomy, &options, sign.shifted_span(-offset));
-        let mut holds = holds.map_err(|error| CorpusError::from_wrong_message(error.to_string()))?;
+        let read = transcribe_holds(&clip, &anatomy, &options, sign.shifted_span(-offset));
+        let mut holds = read.map_err(|error| CorpusError::from_wrong_message(error.to_string()))?;
         for reading in &mut holds {
             reading.held.span = reading.held.span.shifted_span(offset);
         }

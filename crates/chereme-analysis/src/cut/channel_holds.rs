@@ -125,8 +125,8 @@ fn sampled_postures(hand: &HandCurve, channel: HandChannel, sign: &Range<usize>)
         .max(1);
     let [begin, end] = [sign.start..sign.start + edge, sign.end - edge..sign.end];
     let slowest = |samples: Range<usize>| {
-        let moment = samples.clone().min_by(|a, b| speed[*a].total_cmp(&speed[*b]));
-        let moment = moment.unwrap_or(samples.start);
+        let least = samples.clone().min_by(|a, b| speed[*a].total_cmp(&speed[*b]));
+        let moment = least.unwrap_or(samples.start);
         SampledPosture {
             core: samples.clone(),
             samples,
