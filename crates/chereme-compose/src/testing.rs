@@ -314,7 +314,9 @@ impl RecipeSources for Shelf {
             1,
         );
         material.held.clear();
-        material.hash.push_str(" at rest");
+        if signer.is_some_and(|name| name.starts_with("token:")) {
+            material.hash.push_str(" at rest");
+        }
         material.address = "stage".into();
         material.gloss = "rest".into();
         Ok(material)

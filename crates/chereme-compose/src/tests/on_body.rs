@@ -146,7 +146,7 @@ fn fingertips_touch_their_places_on_every_body() {
 fn a_stored_sign_on_another_body_is_restored() {
     let bodies = dialects("BOL");
     let shelf = shelf_of_bodies(&bodies);
-    let recipe: Recipe = "TOES | on signer:SMALL | reverse".parse().expect("a recipe");
+    let recipe: Recipe = "TOES | on token:SMALL | reverse".parse().expect("a recipe");
     let resolved = resolve_recipe(&recipe, &shelf).expect("resolved");
     let made = evaluate_recipe(&resolved).expect("made");
     let text = serde_json::to_string(resolved.resolved_inputs()).expect("JSON");
