@@ -14,7 +14,7 @@
 //! | [`session`] | takes of one cuer: fingertips, bends, gestures of keys, recognition |
 //! | [`cue_phases`] | begin and arrival of hand and fingers against the sounds |
 //! | [`cue_targets`] | target frames of keys, arrival of the hand, quartiles |
-//! | [`generate`] | generated sessions with known truth, from a seed |
+//! | `generate` | for tests: generated sessions with known truth, from a seed |
 //! | `linear`, `terms` | small matrices; the terms of the hand's regression |
 
 pub mod cue_face;
@@ -24,6 +24,8 @@ pub mod cue_phases;
 pub mod cue_targets;
 mod cue_terms;
 pub mod gauss;
+#[cfg(any(test, feature = "testing"))]
+#[path = "tests/generate/mod.rs"]
 pub mod generate;
 pub mod linear;
 pub mod pca;

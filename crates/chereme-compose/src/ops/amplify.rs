@@ -87,7 +87,7 @@ impl StepOperator for AmplifySettings {
     }
 
     fn operator_form_fields(&mut self) -> Vec<FieldSetting<'_>> {
-        let size = InterfaceText::from_id("operator-setting-size");
+        let size = InterfaceText::from_id("setting-size");
         vec![
             FieldSetting::hands_field_setting(&mut self.hand),
             FieldSetting::new(size, OperatorField::Factor(&mut self.by, 0.0..=3.0)),

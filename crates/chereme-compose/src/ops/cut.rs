@@ -106,8 +106,8 @@ impl StepOperator for SpanSettings {
     fn operator_form_fields(&mut self) -> Vec<FieldSetting<'_>> {
         let setting = |id, field| FieldSetting::new(InterfaceText::from_id(id), field);
         vec![
-            setting("operator-setting-from-time", OperatorField::Time(&mut self.from, 0.2)),
-            setting("operator-setting-to-time", OperatorField::Time(&mut self.to, 1.0)),
+            setting("setting-from-time", OperatorField::Time(&mut self.from, 0.2)),
+            setting("setting-to-time", OperatorField::Time(&mut self.to, 1.0)),
         ]
     }
 }

@@ -25,18 +25,12 @@ impl<'a> OperatorSetting<'a> {
 
     /// Creates the usual setting for one hand or both.
     pub(crate) fn hands_field_setting(hands: &'a mut HandChoice) -> Self {
-        Self::new(
-            InterfaceText::from_id("operator-setting-hand"),
-            OperatorField::Hands(hands),
-        )
+        Self::new(InterfaceText::from_id("setting-hand"), OperatorField::Hands(hands))
     }
 
     /// Creates the usual setting for a transition.
     pub(crate) fn transition_field_setting(via: &'a mut PostureTransition) -> Self {
-        Self::new(
-            InterfaceText::from_id("operator-setting-transition"),
-            OperatorField::Via(via),
-        )
+        Self::new(InterfaceText::from_id("setting-transition"), OperatorField::Via(via))
     }
 }
 

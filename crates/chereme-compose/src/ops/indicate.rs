@@ -127,8 +127,8 @@ impl StepOperator for IndicateSettings {
         let setting = |id, spot| FieldSetting::new(InterfaceText::from_id(id), OperatorField::Spot(spot));
         vec![
             FieldSetting::hands_field_setting(&mut self.hand),
-            setting("operator-setting-from-spot", &mut self.from),
-            setting("operator-setting-to-spot", &mut self.to),
+            setting("setting-from-spot", &mut self.from),
+            setting("setting-to-spot", &mut self.to),
         ]
     }
 }

@@ -131,7 +131,7 @@ impl StepOperator for MirrorSettings {
 
     fn operator_form_fields(&mut self) -> Vec<FieldSetting<'_>> {
         let field = OperatorField::Hand(&mut self.from);
-        let copied = InterfaceText::from_id("operator-setting-copied-from");
+        let copied = InterfaceText::from_id("setting-copied-from");
         vec![FieldSetting::new(copied, field)]
     }
 }

@@ -206,10 +206,7 @@ impl StepOperator for NonmanualSettings {
 
     fn operator_form_fields(&mut self) -> Vec<FieldSetting<'_>> {
         let field = OperatorField::Sign(&mut self.from);
-        vec![FieldSetting::new(
-            InterfaceText::from_id("operator-setting-from-sign"),
-            field,
-        )]
+        vec![FieldSetting::new(InterfaceText::from_id("setting-from-sign"), field)]
     }
 }
 

@@ -76,7 +76,7 @@ impl StepOperator for OnBodySettings {
             let signer = body.signer;
             *work = WorkingClip { signer, ..same };
             let did = format!(
-                "the movement has the body of {} already: it is unchanged",
+                "the movement is on this body already and stays as it is: {}",
                 material.address
             );
             return Ok(vec![did].into());
@@ -90,7 +90,7 @@ impl StepOperator for OnBodySettings {
         let signer = body.signer;
         *work = WorkingClip { signer, ..done.work };
         work.note_changed_groups(JointGroup::ALL_JOINT_GROUPS, given.text);
-        let mut did = vec![format!("the movement is put on the body of {}", material.address)];
+        let mut did = vec![format!("the movement is put on another body: {}", material.address)];
         did.extend(done.kept);
         Ok(StepOutcome {
             lost: done.lost,
@@ -113,9 +113,6 @@ impl StepOperator for OnBodySettings {
 
     fn operator_form_fields(&mut self) -> Vec<FieldSetting<'_>> {
         let field = OperatorField::Body(&mut self.body);
-        vec![FieldSetting::new(
-            InterfaceText::from_id("operator-setting-body"),
-            field,
-        )]
+        vec![FieldSetting::new(InterfaceText::from_id("setting-body"), field)]
     }
 }

@@ -139,10 +139,10 @@ impl StepOperator for RepeatSettings {
         let scale = OperatorField::OptionalFactor(&mut self.scale, 0.8);
         let tempo = OperatorField::OptionalFactor(&mut self.tempo, 1.2);
         vec![
-            setting("operator-setting-times", times),
-            setting("operator-setting-scale", scale),
-            setting("operator-setting-tempo", tempo),
-            setting("operator-setting-gap", OperatorField::Time(&mut self.gap, 0.1)),
+            setting("setting-times", times),
+            setting("setting-scale", scale),
+            setting("setting-tempo", tempo),
+            setting("setting-gap", OperatorField::Time(&mut self.gap, 0.1)),
             FieldSetting::transition_field_setting(&mut self.via),
         ]
     }

@@ -1,13 +1,13 @@
 //! Reads the components of a token from its movement: postures at their holds, and movements at the time of their acts.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_analysis::cut::HandChannel;
 use chereme_analysis::transcribe::{FeatureKind, HeldReading, NotationFeature, list_single_acts};
 use chereme_motion::{BodySide, RecordingInstant, TimeSpan};
 use chereme_sign::hamnosys::components::{MappedValue, SignMapper};
 use chereme_sign::hamnosys::{HamnosysSign, HandsUsed, ManualPart, NotatedMotion, NotatedPosture, NotatedSign};
-use chereme_sign::{HandRef, SignComponent};
+use chereme_sign::{HandRef, SignComponent, SignPhase};
 
 use super::{ProposalSubject, ProposedValue};
 use crate::Corpus;
@@ -19,6 +19,9 @@ use crate::transcribe::{SignTranscription, TranscribedFeature};
 
 /// The confidence of a value that has no rival.
 const UNRIVALLED_CONFIDENCE: f64 = 0.6;
+/// The share of its confidence that a posture keeps if no hold shows it. Of 60 notated signs, animated, 52 of 64 such readings
+/// of palms and fingers were right, and 158 of 178 held ones.
+const PASSING_CONFIDENCE: f64 = 0.9;
 /// The share of a sign for which a place is held, and how far the hand goes from it in arm lengths, if it makes no path.
 const STAYING_SHARE: f64 = 0.85;
 const STAYING_REACH: f64 = 0.05;
@@ -64,6 +67,7 @@ impl Corpus {
         let sign = TimeSpan::span_between(instant(written.start_us.max(start)), instant(written.end_us.min(end)));
         let holds = self.stretch_holds(&stretch, sign)?;
         let mut values = codes.held_values(&holds);
+        codes.place_values_of_sign(&written, sign, &mut values);
         values.extend(codes.movement_values(&written, &holds, sign));
         values.retain(|((component, ..), _)| components.contains(component));
         let all = values.len();
@@ -133,6 +137,8 @@ impl CodeMapper<'_> {
                     Some((feature.residual, next.residual, next.value.as_str()))
                 });
                 let (margin, runner_up) = least_margin(rivals);
+                // A hold is as sure as its value differs from others: how long it is says little more.
+                let passing = if reading.held.is_held { 1.0 } else { PASSING_CONFIDENCE };
                 let shown = if channel == SignComponent::Configuration {
                     reading.shown
                 } else {
@@ -144,10 +150,7 @@ impl CodeMapper<'_> {
                         start_us: reading.held.span.span_start_instant().instant_micros(),
                         end_us: reading.held.span.span_end_instant().instant_micros(),
                         value: mapped.value,
-                        confidence: rounded_confidence(match reading.held.is_held {
-                            true => (reading.held.confidence * margin).sqrt() * shown,
-                            false => reading.held.confidence * margin * shown,
-                        }),
+                        confidence: rounded_confidence(margin * shown * passing),
                         is_moving: !reading.held.is_held,
                         runner_up,
                     },
@@ -155,6 +158,69 @@ impl CodeMapper<'_> {
             }
         }
         values
+    }
+
+    /// Gives the places that the whole sign has the times of the holds. Where a sign begins and ends is read better from
+    /// the whole of it, contacts included, than from one hold; a place without a hold of its own is passed through.
+    fn place_values_of_sign(
+        &self,
+        written: &SignTranscription,
+        sign: TimeSpan,
+        values: &mut Vec<(ProposalSubject, ProposedValue)>,
+    ) {
+        let is_place = |subject: &ProposalSubject| subject.0 == SignComponent::Placement;
+        let (held, others) = std::mem::take(values)
+            .into_iter()
+            .partition(|(subject, _)| is_place(subject));
+        let held: Vec<(ProposalSubject, ProposedValue)> = held;
+        *values = others;
+        let notated = NotatedSign {
+            sign: written.sign.clone(),
+            ..NotatedSign::default()
+        };
+        let mut places: BTreeMap<HandRef, Vec<(Option<SignPhase>, String)>> = BTreeMap::new();
+        for mapped in self.mapper.map_sign_components(&notated).values {
+            if mapped.field.component == SignComponent::Placement && mapped.field.feature.is_none() {
+                let hand = mapped.field.hand.unwrap_or(HandRef::Dominant);
+                places.entry(hand).or_default().push((mapped.field.phase, mapped.value));
+            }
+        }
+        let [start, end] = [sign.span_start_instant(), sign.span_end_instant()].map(|at| at.instant_micros());
+        for (hand, mut own) in places {
+            own.sort();
+            own.dedup_by(|a, b| a.1 == b.1);
+            let count = own.len();
+            let side = self.hand_side(hand);
+            let holds: Vec<&ProposedValue> = held
+                .iter()
+                .filter(|((.., of), _)| self.hand_side(*of) == side)
+                .map(|(_, value)| value)
+                .collect();
+            for (nth, (_, value)) in own.into_iter().enumerate() {
+                // The first place has the first hold and the last place the last one.
+                let hold = match nth {
+                    0 => holds.first(),
+                    _ if nth + 1 == count && holds.len() > 1 => holds.last(),
+                    _ => None,
+                };
+                let part_time = |part: usize| start + (end - start) * part as i64 / count as i64;
+                let [start_us, end_us] = hold.map_or([part_time(nth), part_time(nth + 1)], |hold| {
+                    [hold.start_us, hold.end_us]
+                });
+                let of_place = |feature: &&TranscribedFeature| {
+                    let is_timed = count == 1 || (feature.at_us >= start_us && feature.at_us < end_us);
+                    is_timed && feature.hand.is_none_or(|of| of == side)
+                };
+                let subject = (SignComponent::Placement, None, hand);
+                let (margin, runner_up) = transcribed_margin(&subject, written.features.iter().filter(of_place));
+                let is_moving = hold.is_none_or(|hold| hold.is_moving);
+                let proposed = ProposedValue {
+                    is_moving,
+                    ..ProposedValue::of_act([start_us, end_us], &value, margin, runner_up)
+                };
+                values.push((subject, proposed));
+            }
+        }
     }
 
     /// Returns the kinds of movement, each in the time of its act; no path of a hand that stays in its place.
@@ -200,7 +266,8 @@ impl CodeMapper<'_> {
                             .hand
                             .is_none_or(|side| Some(side) == stage.hand || stage.hand.is_none())
                 };
-                let (margin, runner_up) = transcribed_margin(written.features.iter().filter(of_act));
+                let subject = (SignComponent::Movement, None, hand);
+                let (margin, runner_up) = transcribed_margin(&subject, written.features.iter().filter(of_act));
                 let (start, end) = (stage.start_us.max(whole.start), stage.end_us.min(whole.end));
                 // Annotations of one tier cannot overlap: what a hand does at once shares the time of the act.
                 let part_time = |part: usize| start + (end - start).max(0) * part as i64 / kinds.len() as i64;
@@ -256,8 +323,11 @@ fn feature_kinds((component, feature, _): &ProposalSubject) -> &'static [Feature
     }
 }
 
-fn transcribed_margin<'f>(features: impl Iterator<Item = &'f TranscribedFeature>) -> (f64, Option<String>) {
-    let kinds = feature_kinds(&(SignComponent::Movement, None, HandRef::Dominant));
+fn transcribed_margin<'f>(
+    subject: &ProposalSubject,
+    features: impl Iterator<Item = &'f TranscribedFeature>,
+) -> (f64, Option<String>) {
+    let kinds = feature_kinds(subject);
     least_margin(
         features
             .filter(|feature| kinds.contains(&feature.feature))

@@ -141,7 +141,11 @@ fn words_and_values_of_a_lexicon_without_terms_stay_out() {
     .expect("written");
     let mut corpus = corpus(folder.path());
     let progress = &mut ignore_progress_step;
-    let options = crate::ImportOptions::default();
+    let options = crate::ImportOptions {
+        // That of the captured LIMACE.
+        lexicon: Some("lexicon".to_owned()),
+        ..crate::ImportOptions::default()
+    };
     corpus
         .import_paths(&[table], &options, &mut ProgressReceiver::new(progress))
         .expect("imported");
