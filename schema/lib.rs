@@ -46,11 +46,10 @@ pub fn declare_text_constants(prefix: &str, visibility: &str) -> String {
         let constants: String = words
             .lines()
             .filter_map(|line| {
-                let (id, text) = line.split_once(" =")?;
-                let text = text.trim();
+                let (id, _) = line.split_once(" =")?;
                 let name = id.strip_prefix(&start)?.to_uppercase().replace('-', "_");
                 Some(format!(
-                    "#[doc = {text:?}] {visibility} const {name}: InterfaceText = InterfaceText::from_id({id:?});\n"
+                    "/// The text `{id}`.\n{visibility} const {name}: InterfaceText = InterfaceText::from_id({id:?});\n"
                 ))
             })
             .collect();

@@ -294,10 +294,10 @@ fn nothing_is_pasted_or_duplicated_onto_tiers_of_proposals() {
     }
     press(&mut window, Modifiers::COMMAND, Key::D);
     refused(&mut window, "a proposal is duplicated");
-    // A gloss is duplicated onto the selected tier.
+    // From the gloss to the proposal below it.
     click(&mut window, "Tier gloss");
     press(&mut window, Modifiers::ALT, Key::Home);
-    press(&mut window, Modifiers::COMMAND, Key::ArrowDown);
+    press(&mut window, Modifiers::ALT, Key::ArrowDown);
     press(&mut window, Modifiers::COMMAND, Key::D);
-    refused(&mut window, "a gloss is duplicated");
+    refused(&mut window, "the proposal below a gloss is duplicated");
 }

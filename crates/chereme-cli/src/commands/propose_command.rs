@@ -156,7 +156,7 @@ pub(super) fn run(cli: &CommandLine, args: &ProposeArgs, output: &mut CommandOut
             &output.format_counted_noun(proposed.unread, "tokens"),
         ],
     )?;
-    if proposed.codings.len() <= MOST_SHOWN_CODINGS {
+    if (1..=MOST_SHOWN_CODINGS).contains(&proposed.codings.len()) {
         print_proposed_codings(&proposed.codings, output)?;
     }
     if !proposed.by_confidence.is_empty() {

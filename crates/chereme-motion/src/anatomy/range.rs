@@ -291,7 +291,8 @@ mod tests {
         let read = range.suggest_hand_correction().correct_hand_angles(&posture(closed));
         for finger in read.fingers {
             let share = finger.flexion[1].to_degrees() / FIST_JOINT_DEGREES[1];
-            assert!((0.9..1.1).contains(&share), "{share}");
+            // The relaxed angle is taken for no straight one, which would leave the fist half open.
+            assert!((0.8..1.1).contains(&share), "{share}");
         }
     }
 

@@ -145,7 +145,7 @@ Curves of face and head during the token (1 is the usual reach, or degrees)
 
 Notation in HamNoSys, symbols as names or characters
   notation~"hamfinger2 … hamcirclei"      these in this order; … is a gap
-  notation~"[handshape] hamthumb*"        a class of symbols; names that begin so
+  notation~"[handshape] hamthumb*"        a class; names that begin so
   notation="hamfist …"   notation=*       the whole notation; any notation
 
 Keys of cued speech, placement before shape

@@ -199,7 +199,7 @@ const WRONG: &[(&str, &str)] = &[
     ("gloss:||", "6..8 there is nothing to search for in this"),
     ("placement= or a", "11..13 a value should stand here"),
     ("gloss=a, not b", "9..12 a value should stand here"),
-    ("not=x", r#"0..3 there is no field "not""#),
+    ("not=x", r#"0..3 there is no field "not"; did you mean notation?"#),
     (
         "palm=up",
         r#"0..4 "palm" is a part of orientation; did you mean orientation.palm?"#,
