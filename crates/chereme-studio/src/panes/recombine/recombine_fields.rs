@@ -610,8 +610,10 @@ mod tests {
             place: None,
             notated: false,
         };
-        let mut overview = CorpusOverview::default();
-        overview.signs = vec![sign(1, "BOOK", "ASL"), sign(2, "BOOK", "BSL"), sign(3, "SNAIL", "ASL")];
+        let overview = CorpusOverview {
+            signs: vec![sign(1, "BOOK", "ASL"), sign(2, "BOOK", "BSL"), sign(3, "SNAIL", "ASL")],
+            ..CorpusOverview::default()
+        };
         assert_eq!(recipe_of(&overview, 11, "BOOK"), "token:11");
         assert_eq!(recipe_of(&overview, 12, "BOOK"), "token:12");
         assert_eq!(recipe_of(&overview, 13, "SNAIL"), "SNAIL");
