@@ -1,5 +1,6 @@
 //! Random numbers from a seed.
 
+#[cfg(any(test, feature = "testing"))]
 use glam::DVec3;
 
 /// Random numbers that are the same on every machine (SplitMix64).
@@ -39,6 +40,7 @@ impl RandomNumbers {
     }
 
     /// Returns a vector of three normal numbers with this standard deviation.
+    #[cfg(any(test, feature = "testing"))]
     pub(crate) fn random_normal_vector(&mut self, sd: f64) -> DVec3 {
         DVec3::new(self.random_normal(), self.random_normal(), self.random_normal()) * sd
     }

@@ -1,6 +1,6 @@
 //! The order in which participants see the trials: one row per participant, all of them computed when the study is built.
 
-use chereme_analysis::cue::generate::RandomNumbers;
+use chereme_analysis::random::RandomNumbers;
 
 use super::study_plan::{ConditionOrder, StudyPlan, TrialRole};
 
