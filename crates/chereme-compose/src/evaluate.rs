@@ -21,7 +21,7 @@ use crate::work::{JointGroup, WorkingClip};
 
 /// The version of the evaluator. It rises whenever the same resolved recipe gives different movement, so that a
 /// stored sign can be distinguished from one that would be generated today.
-pub const ENGINE_VERSION: u32 = 25;
+pub const ENGINE_VERSION: u32 = 26;
 
 /// Generates the movement of a recipe.
 ///

@@ -57,7 +57,7 @@ pub struct TokenDetails {
     pub row: TokenRow,
     /// Its values.
     pub values: Vec<TokenValue>,
-    /// What detectors propose and annotators dispute; it does not count.
+    /// The proposals of detectors and the values that annotators dispute; they do not count.
     pub opinions: Vec<ValueOpinion>,
     /// Its HamNoSys, if it is notated.
     pub notation: Option<String>,

@@ -1,4 +1,4 @@
-//! Holds of the fingers, the place and the palm of a hand, each of which is held for itself.
+//! Holds of the fingers, the place and the palm of a hand, each for itself.
 
 use std::ops::Range;
 

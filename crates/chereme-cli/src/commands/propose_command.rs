@@ -14,8 +14,8 @@ use crate::output::{CommandOutput, with_progress_bar};
 
 /// Propose values of a component from movement, for tokens without a value of it; or run a detector on recordings
 ///
-/// Handshape, place and palm of each hand are read where they are held, each in the time of its own hold, and movements in
-/// the time of their acts. The values are written on separate tiers, such as "configuration dominant (proposed)", as
+/// Handshape and palm of each hand are read at their holds, places from the whole sign; all of them are written in the time
+/// of a hold, and movements in the time of their acts. The values are written on separate tiers, such as "configuration dominant (proposed)", as
 /// annotations of a detector; "moving" says that nothing is held there. They do not count in searches, counts, statistics, recipes and
 /// exports of tokens until a person accepts them; the condition `proposed:yes` reads them. A call is one operation, which
 /// `undo` takes back. Ctrl-C stops it and leaves the corpus as it was.

@@ -21,7 +21,7 @@ use crate::error::{CorpusError, CorpusResult};
 use crate::movement::{ChannelGroup, MotionTrack};
 use crate::track::{self, TrackKind};
 
-/// What a GLB shows of the movement.
+/// The look of the movement in a GLB.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum GlbLook {
     /// The person that pictures draw; bones if the skeleton is no person.

@@ -131,8 +131,8 @@ impl EqualValues {
 pub(crate) struct StandingWords(HashMap<(SignComponent, Option<String>), HashMap<String, String>>);
 
 impl StandingWords {
-    /// Reads the words of a corpus. An inventory with two of them as values of its own keeps them apart, so that a word is
-    /// enough to tell which group is meant.
+    /// Reads the words of a corpus. An inventory with two of them as values of its own keeps them apart, so that a word
+    /// alone names its group.
     pub(crate) fn load_standing_words(connection: &Connection) -> CorpusResult<Self> {
         let equal = EqualValues::load_equal_values(connection)?;
         let mut words = Self::default();

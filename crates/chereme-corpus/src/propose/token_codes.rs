@@ -67,7 +67,7 @@ impl Corpus {
         let sign = TimeSpan::span_between(instant(written.start_us.max(start)), instant(written.end_us.min(end)));
         let holds = self.stretch_holds(&stretch, sign)?;
         let mut values = codes.held_values(&holds);
-        codes.place_values_of_sign(&written, sign, &mut values);
+        values.extend(codes.place_values(&written, &holds, sign));
         values.extend(codes.movement_values(&written, &holds, sign));
         values.retain(|((component, ..), _)| components.contains(component));
         let all = values.len();
@@ -114,14 +114,15 @@ impl CodeMapper<'_> {
             .collect()
     }
 
-    /// Returns the values of postures at their holds.
+    /// Returns the values of handshapes and palms at their holds.
     fn held_values(&self, holds: &[HeldReading]) -> Vec<(ProposalSubject, ProposedValue)> {
         let mut values = Vec::new();
         for reading in holds {
             let channel = match reading.channel {
                 HandChannel::Fingers => SignComponent::Configuration,
-                HandChannel::Place => SignComponent::Placement,
                 HandChannel::Palm => SignComponent::Orientation,
+                // The whole sign shows its places better.
+                HandChannel::Place => continue,
             };
             let is_shared = matches!(reading.hands, HandsUsed::Both(_));
             for (hand, mapped) in self.map_hand_values(reading.hands, &reading.posture, Vec::new()) {
@@ -160,20 +161,23 @@ impl CodeMapper<'_> {
         values
     }
 
-    /// Gives the places that the whole sign has the times of the holds. Where a sign begins and ends is read better from
-    /// the whole of it, contacts included, than from one hold; a place without a hold of its own is passed through.
-    fn place_values_of_sign(
+    /// Returns the readings of the places that a hand holds.
+    fn place_holds<'h>(&self, holds: &'h [HeldReading], hand: HandRef) -> impl Iterator<Item = &'h HeldReading> {
+        let side = self.hand_side(hand);
+        holds.iter().filter(move |reading| {
+            let is_of_both = matches!(reading.hands, HandsUsed::Both(_));
+            reading.channel == HandChannel::Place && (is_of_both || reading.hand == side)
+        })
+    }
+
+    /// Returns the places of the whole sign at the times of the holds. The whole of a sign, contacts included, shows better
+    /// than one hold does at which places it begins and ends. Without a hold for each, places share the time of the sign.
+    fn place_values(
         &self,
         written: &SignTranscription,
+        holds: &[HeldReading],
         sign: TimeSpan,
-        values: &mut Vec<(ProposalSubject, ProposedValue)>,
-    ) {
-        let is_place = |subject: &ProposalSubject| subject.0 == SignComponent::Placement;
-        let (held, others) = std::mem::take(values)
-            .into_iter()
-            .partition(|(subject, _)| is_place(subject));
-        let held: Vec<(ProposalSubject, ProposedValue)> = held;
-        *values = others;
+    ) -> Vec<(ProposalSubject, ProposedValue)> {
         let notated = NotatedSign {
             sign: written.sign.clone(),
             ..NotatedSign::default()
@@ -185,42 +189,35 @@ impl CodeMapper<'_> {
                 places.entry(hand).or_default().push((mapped.field.phase, mapped.value));
             }
         }
-        let [start, end] = [sign.span_start_instant(), sign.span_end_instant()].map(|at| at.instant_micros());
+        let micros =
+            |span: TimeSpan| [span.span_start_instant(), span.span_end_instant()].map(|at| at.instant_micros());
+        let [start, end] = micros(sign);
+        let mut values = Vec::new();
         for (hand, mut own) in places {
             own.sort();
             own.dedup_by(|a, b| a.1 == b.1);
             let count = own.len();
             let side = self.hand_side(hand);
-            let holds: Vec<&ProposedValue> = held
-                .iter()
-                .filter(|((.., of), _)| self.hand_side(*of) == side)
-                .map(|(_, value)| value)
-                .collect();
+            let readings: Vec<&HeldReading> = self.place_holds(holds, hand).collect();
+            let has_holds = count == readings.len() || count == 1;
             for (nth, (_, value)) in own.into_iter().enumerate() {
-                // The first place has the first hold and the last place the last one.
-                let hold = match nth {
-                    0 => holds.first(),
-                    _ if nth + 1 == count && holds.len() > 1 => holds.last(),
-                    _ => None,
-                };
+                let hold = readings.get(nth).filter(|_| has_holds);
                 let part_time = |part: usize| start + (end - start) * part as i64 / count as i64;
-                let [start_us, end_us] = hold.map_or([part_time(nth), part_time(nth + 1)], |hold| {
-                    [hold.start_us, hold.end_us]
-                });
+                let times = hold.map_or([part_time(nth), part_time(nth + 1)], |hold| micros(hold.held.span));
                 let of_place = |feature: &&TranscribedFeature| {
-                    let is_timed = count == 1 || (feature.at_us >= start_us && feature.at_us < end_us);
+                    let is_timed = count == 1 || (times[0]..times[1]).contains(&feature.at_us);
                     is_timed && feature.hand.is_none_or(|of| of == side)
                 };
                 let subject = (SignComponent::Placement, None, hand);
                 let (margin, runner_up) = transcribed_margin(&subject, written.features.iter().filter(of_place));
-                let is_moving = hold.is_none_or(|hold| hold.is_moving);
                 let proposed = ProposedValue {
-                    is_moving,
-                    ..ProposedValue::of_act([start_us, end_us], &value, margin, runner_up)
+                    is_moving: hold.is_none_or(|hold| !hold.held.is_held),
+                    ..ProposedValue::of_act(times, &value, margin, runner_up)
                 };
                 values.push((subject, proposed));
             }
         }
+        values
     }
 
     /// Returns the kinds of movement, each in the time of its act; no path of a hand that stays in its place.
@@ -234,10 +231,7 @@ impl CodeMapper<'_> {
             return Vec::new();
         };
         let stays = |hand: HandRef| {
-            let places = holds.iter().filter(|reading| reading.channel == HandChannel::Place);
-            let is_of_both = |reading: &HeldReading| matches!(reading.hands, HandsUsed::Both(_));
-            let mut own = places.filter(|reading| is_of_both(reading) || reading.hand == self.hand_side(hand));
-            own.any(|reading| {
+            self.place_holds(holds, hand).any(|reading| {
                 let held = reading.held;
                 held.is_held && held.share > STAYING_SHARE && held.reach < STAYING_REACH
             })
@@ -269,7 +263,7 @@ impl CodeMapper<'_> {
                 let subject = (SignComponent::Movement, None, hand);
                 let (margin, runner_up) = transcribed_margin(&subject, written.features.iter().filter(of_act));
                 let (start, end) = (stage.start_us.max(whole.start), stage.end_us.min(whole.end));
-                // Annotations of one tier cannot overlap: what a hand does at once shares the time of the act.
+                // Annotations of one tier cannot overlap: acts of a hand at once share the time.
                 let part_time = |part: usize| start + (end - start).max(0) * part as i64 / kinds.len() as i64;
                 values.extend(kinds.iter().enumerate().map(|(nth, kind)| {
                     let times = [part_time(nth), part_time(nth + 1)];

@@ -129,7 +129,7 @@ pub enum LeftOutPart {
     Lexicon,
 }
 
-/// Signs that were left out of a dictionary, or of which a part was.
+/// Signs that were left out of a dictionary, or are in it without a part.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LeftOutSigns {
     /// The reason.

@@ -25,7 +25,7 @@ pub struct SkinnedFigure {
     pub weights: Vec<[f32; 4]>,
     /// The bones.
     pub bones: Vec<FigureBone>,
-    /// The changes of the face, where it is bound.
+    /// The changes of the face in the bound pose.
     pub morphs: Vec<FaceMorph>,
 }
 

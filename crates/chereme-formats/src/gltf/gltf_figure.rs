@@ -143,13 +143,13 @@ pub(super) fn figure_mesh(figure: &GlbFigure, first_bone: usize, parts: &mut Glb
         })
     });
     let view = parts.add_buffer_view(&bones.collect::<Vec<u8>>(), Some(VERTEX_BUFFER_TARGET));
-    let joint = parts.accessor(view, (SHORT_COMPONENT_TYPE, "VEC4"), all.len());
+    let joint = parts.add_accessor(view, (SHORT_COMPONENT_TYPE, "VEC4"), all.len());
     let weights: Vec<f32> = all.iter().flat_map(|vertex| vertex.weights).collect();
     let weight = parts.add_float_accessor(&weights, "VEC4", 4, Some(VERTEX_BUFFER_TARGET));
     let corners = figure.triangles.iter().flatten();
     let bytes: Vec<u8> = corners.flat_map(|corner| corner.to_le_bytes()).collect();
     let view = parts.add_buffer_view(&bytes, Some(INDEX_BUFFER_TARGET));
-    let index = parts.accessor(view, (INTEGER_COMPONENT_TYPE, "SCALAR"), figure.triangles.len() * 3);
+    let index = parts.add_accessor(view, (INTEGER_COMPONENT_TYPE, "SCALAR"), figure.triangles.len() * 3);
     let targets: Vec<Value> = figure
         .morphs
         .iter()

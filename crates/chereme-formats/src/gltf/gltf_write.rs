@@ -75,7 +75,7 @@ impl GlbParts {
         self.views.len() - 1
     }
 
-    pub(super) fn accessor(&mut self, view: usize, kind: (u32, &str), count: usize) -> usize {
+    pub(super) fn add_accessor(&mut self, view: usize, kind: (u32, &str), count: usize) -> usize {
         let (component, shape) = kind;
         let accessor = json!({"bufferView": view, "componentType": component, "type": shape, "count": count});
         self.accessors.push(accessor);
@@ -91,7 +91,7 @@ impl GlbParts {
     ) -> usize {
         let bytes: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
         let view = self.add_buffer_view(&bytes, target);
-        self.accessor(view, (FLOAT_COMPONENT_TYPE, shape), values.len() / width)
+        self.add_accessor(view, (FLOAT_COMPONENT_TYPE, shape), values.len() / width)
     }
 
     /// Writes the minimum and maximum of each column into an accessor.
@@ -265,7 +265,7 @@ pub(super) fn to_gltf_rotation(rotation: DQuat) -> [f32; 4] {
     rotation.normalize().as_quat().normalize().to_array()
 }
 
-/// What changes a node over time, one value for each frame of the clip.
+/// The values that move a node, one for each frame of the clip.
 pub(super) struct AnimatedNode {
     node: usize,
     path: &'static str,
@@ -389,11 +389,11 @@ fn skeleton_bone_mesh(skeleton: &Skeleton, parts: &mut GlbParts) -> Option<Value
     parts.set_accessor_bounds(position, &places, 3);
     let bytes: Vec<u8> = joints.iter().flat_map(|joint| joint.to_le_bytes()).collect();
     let view = parts.add_buffer_view(&bytes, Some(VERTEX_BUFFER_TARGET));
-    let joint = parts.accessor(view, (SHORT_COMPONENT_TYPE, "VEC4"), joints.len() / 4);
+    let joint = parts.add_accessor(view, (SHORT_COMPONENT_TYPE, "VEC4"), joints.len() / 4);
     let weight = parts.add_float_accessor(&weights, "VEC4", 4, Some(VERTEX_BUFFER_TARGET));
     let bytes: Vec<u8> = indices.iter().flat_map(|index: &u16| index.to_le_bytes()).collect();
     let view = parts.add_buffer_view(&bytes, Some(INDEX_BUFFER_TARGET));
-    let index = parts.accessor(view, (SHORT_COMPONENT_TYPE, "SCALAR"), indices.len());
+    let index = parts.add_accessor(view, (SHORT_COMPONENT_TYPE, "SCALAR"), indices.len());
     Some(json!({"name": "bones", "primitives": [{
         "attributes": {"POSITION": position, "JOINTS_0": joint, "WEIGHTS_0": weight},
         "indices": index, "material": 0, "mode": 4,
