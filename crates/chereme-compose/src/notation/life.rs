@@ -7,6 +7,7 @@
 use std::f64::consts::TAU;
 
 use chereme_motion::glam::{DQuat, DVec3};
+use chereme_motion::interpolation::smooth_step;
 use chereme_motion::{BodyPart, BodySide};
 use chereme_sign::hamnosys::{BodyLanguage, NonmanualPart, NotatedSign};
 
@@ -48,8 +49,7 @@ impl BodyLifeRotations {
         for (frame, bent) in bents.iter_mut().enumerate() {
             let time = frame as f64 / rate;
             let busy = busy[frame];
-            let moves =
-                smooth_life_share(time / tuned().life.starts) * smooth_life_share((end - time) / tuned().life.starts);
+            let moves = smooth_step(time / tuned().life.starts) * smooth_step((end - time) / tuned().life.starts);
             let [trunk, head] =
                 waves.map(|waves| DVec3::from(waves.map(|wave| wave.wave_value_at(time / period))) * mirror);
             let trunk = trunk * DVec3::from(tuned().life.sway) * (sway * moves);
@@ -72,7 +72,7 @@ impl BodyLifeRotations {
         let touches = wanted.points.iter_mut().zip(&wanted.touch);
         for ((point, touch), bent) in touches.zip(&self.bents) {
             if *touch > 0.0 {
-                *point -= bent.moved_shoulder(body, side) * smooth_life_share(*touch);
+                *point -= bent.moved_shoulder(body, side) * smooth_step(*touch);
             }
         }
         let Some((middle, height)) = head_middle_and_height(body) else {
@@ -84,9 +84,7 @@ impl BodyLifeRotations {
             if share <= 0.0 || !bent.turns_head() {
                 continue;
             }
-            let linear_share = share.min(1.0);
-            let share = linear_share * linear_share * (3.0 - 2.0 * linear_share);
-            *point = point.lerp(bent.with_head(body, *point), share);
+            *point = point.lerp(bent.with_head(body, *point), smooth_step(share));
         }
     }
 
@@ -150,10 +148,10 @@ fn hand_gaze_directions(body: &StandingBody, hands: [&HandGoalFrames<'_>; 2], ra
         for hand in hands {
             let hand_point = hand.points[frame];
             let far = hand_point.distance(middle) / height;
-            away = away.min(smooth_life_share(
+            away = away.min(smooth_step(
                 (far - tuned().life.away[0]) / (tuned().life.away[1] - tuned().life.away[0]),
             ));
-            let share = smooth_life_share((hand_point.y - low) / (0.2 * body.arm));
+            let share = smooth_step((hand_point.y - low) / (0.2 * body.arm));
             sum += (hand_point - middle) * share;
             weight += share;
         }
@@ -224,7 +222,7 @@ fn blinks(spans: &[SignSpan], language: &BodyLanguage, rate: f64, total: usize) 
         for (frame, value) in near.take(frames.end).skip(frames.start) {
             let off = frame as f64 / rate - at;
             let share = 1.0 - if off < 0.0 { -off / close } else { off / open };
-            *value = value.max(smooth_life_share(share));
+            *value = value.max(smooth_step(share));
         }
     };
     for span in spans {
@@ -235,11 +233,6 @@ fn blinks(spans: &[SignSpan], language: &BodyLanguage, rate: f64, total: usize) 
         }
     }
     values
-}
-
-fn smooth_life_share(share: f64) -> f64 {
-    let share = share.clamp(0.0, 1.0);
-    share * share * (3.0 - 2.0 * share)
 }
 
 impl BodyBend {

@@ -6,6 +6,7 @@
 
 use super::notation_tuned::tuned;
 use chereme_motion::glam::{DQuat, DVec3};
+use chereme_motion::interpolation::smooth_step;
 use chereme_motion::{ArmChain, BodyAnatomy, BodySide, LocalPose, ModelPose, Skeleton, WristAngles, WristLimits};
 use chereme_sign::hamnosys::BodyLanguage;
 
@@ -307,7 +308,7 @@ impl ArmBoneRig {
             reach,
             to_middle,
             off: (first * first - to_middle * to_middle).max(0.0).sqrt(),
-            rule: limits.own + (limits.across - limits.own) * smooth_arm_share(crossed),
+            rule: limits.own + (limits.across - limits.own) * smooth_step(crossed),
             poles: [arc * self.outside, arc * DVec3::NEG_Y],
             outside: self.outside,
         }
@@ -435,8 +436,8 @@ impl ArmBoneRig {
             return still;
         }
         let above = (wrist.y - self.shoulder.y) / self.rig_arm_length();
-        let raw_rise = limits.rise
-            * smooth_arm_share((above + tuned().arm.rises[0]) / (tuned().arm.rises[0] + tuned().arm.rises[1]));
+        let raw_rise =
+            limits.rise * smooth_step((above + tuned().arm.rises[0]) / (tuned().arm.rises[0] + tuned().arm.rises[1]));
         let rise = match bone.cross(DVec3::Y).try_normalize().filter(|_| raw_rise > 0.0) {
             Some(axis) => DQuat::from_axis_angle(axis, raw_rise),
             None => DQuat::IDENTITY,
@@ -444,8 +445,7 @@ impl ArmBoneRig {
         // Reaches towards a far wrist, and draws back from one nearer than the elbow folds.
         let near = 1.06 * self.min_wrist_distance_squared(limits).sqrt();
         let down = (self.shoulder.y - wrist.y) / far.max(1e-9);
-        let helps =
-            1.0 - smooth_arm_share((down - tuned().arm.hangs[0]) / (tuned().arm.hangs[1] - tuned().arm.hangs[0]));
+        let helps = 1.0 - smooth_step((down - tuned().arm.hangs[0]) / (tuned().arm.hangs[1] - tuned().arm.hangs[0]));
         let far_off = helps * (far - limits.help.0 * self.rig_arm_length()).max(0.0);
         let missing = far_off - (near - far).max(0.0);
         let reach = bone
@@ -552,11 +552,6 @@ fn basis_rotation(a: DVec3, b: DVec3) -> DQuat {
 /// Returns the least rotation from one unit vector to another.
 fn least_arc_rotation(from: DVec3, to: DVec3) -> DQuat {
     DQuat::from_rotation_arc(from, to)
-}
-
-fn smooth_arm_share(share: f64) -> f64 {
-    let share = share.clamp(0.0, 1.0);
-    share * share * (3.0 - 2.0 * share)
 }
 
 /// Returns the part of a rotation that turns about a unit vector.

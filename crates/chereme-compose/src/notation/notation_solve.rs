@@ -7,6 +7,7 @@
 
 use chereme_motion::WristAngles;
 use chereme_motion::glam::{DQuat, DVec3};
+use chereme_motion::interpolation::smooth_step;
 
 use super::freedom::{ArmPostureChoice, HandLeeway};
 use super::notation_arm::{ArmBearing, ArmBoneRig, ArmLimits, ArmPosture, HeldDirections};
@@ -251,7 +252,7 @@ impl<'a> ArmSolver<'a> {
     ) -> AdaptedHand {
         let rig = self.solver_arm_rig();
         // A hand placed by a fingertip turns about it; one placed by its palm moves.
-        let pivot = smooth_solver_share((want.offset.length() / self.hand.staged_hand_length() - 0.55) / 0.25);
+        let pivot = smooth_step((want.offset.length() / self.hand.staged_hand_length() - 0.55) / 0.25);
         let turns = pivot.max(want.touch);
         let most = tuned().solve.near_turned + (tuned().solve.most_turned - tuned().solve.near_turned) * want.touch;
         let mut turned = want.turned;
@@ -451,7 +452,7 @@ fn calm(rows: &mut [ArmFrame], free: &[bool], rate: f64) {
             let last = (ends + after).min(rows.len() - 1);
             let (from, to) = (rows[first].angles, rows[last].angles);
             for (n, row) in rows[first + 1..last].iter_mut().enumerate() {
-                let share = smooth_solver_share((n + 1) as f64 / (last - first) as f64);
+                let share = smooth_step((n + 1) as f64 / (last - first) as f64);
                 row.angles = from.interpolate_wrist_angles(&to, share);
                 row.kept = false;
             }
@@ -484,9 +485,4 @@ fn spline(keys: &[ArmPostureChoice], step: usize, total: usize, of: impl Fn(&Arm
                 / 6.0
         })
         .collect()
-}
-
-fn smooth_solver_share(share: f64) -> f64 {
-    let share = share.clamp(0.0, 1.0);
-    share * share * (3.0 - 2.0 * share)
 }

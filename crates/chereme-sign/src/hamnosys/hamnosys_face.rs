@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
 use chereme_motion::FacePosture;
+use chereme_motion::interpolation::smooth_step;
 use serde::Deserialize;
 
 /// The facial expression of one non-manual: postures one after another.
@@ -56,8 +57,7 @@ impl FacialExpression {
         let last = self.steps.len() - 1;
         let along = (share * self.steps.len() as f64 - 0.5).clamp(0.0, last as f64);
         let before = (along.floor() as usize).min(last);
-        let linear_part = along - before as f64;
-        let part = linear_part * linear_part * (3.0 - 2.0 * linear_part);
+        let part = smooth_step(along - before as f64);
         self.steps[before].interpolate_face(&self.steps[(before + 1).min(last)], part)
     }
 }
