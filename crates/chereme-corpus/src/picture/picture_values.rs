@@ -366,32 +366,10 @@ pub fn facial_expression_of_value(inventory: &ComponentInventory, value: &Invent
         return None;
     }
     let mut spellings = value.value_spellings();
-    let named_expression = spellings.find_map(|text| FacialExpression::from_nonmanual_code(feature, text));
-    named_expression.map_or_else(
-        || plain_named_expression(feature, &value.id),
-        |expression| Some(expression.fullest_face()),
-    )
-}
-
-/// Returns the expression of a value that has a plain name and no code.
-fn plain_named_expression(feature: &str, id: &str) -> Option<FacePosture> {
-    let mut face = FacePosture::default();
-    match (feature, id) {
-        ("brows" | "lids" | "nose" | "mouth", "neutral") => {}
-        ("mouth", "open") => (face.jaw, face.parted) = (0.45, 0.3),
-        ("mouth", "wide-open") => (face.jaw, face.parted) = (1.0, 0.4),
-        ("mouth", "rounded") => (face.wide, face.parted) = (-1.0, 0.3),
-        ("mouth", "spread") => face.wide = 1.0,
-        ("mouth", "smile") => (face.corners, face.wide) = ([1.0; 2], 0.4),
-        ("mouth", "corners-down") => face.corners = [-1.0; 2],
-        ("mouth", "pressed") => face.pressed = 1.0,
-        ("mouth", "puffed") => face.cheeks = [1.0; 2],
-        ("mouth", "sucked-in") => face.cheeks = [-1.0; 2],
-        ("mouth", "tongue-out") => (face.tongue, face.jaw) = (1.0, 0.3),
-        ("mouth", "blowing") => (face.pout, face.parted) = (1.0, 0.4),
-        _ => return None,
-    }
-    Some(face)
+    let expression = spellings.find_map(|text| FacialExpression::from_nonmanual_code(feature, text));
+    let is_resting = value.id == "neutral" && ["brows", "lids", "nose", "mouth"].contains(&feature);
+    let resting_face = is_resting.then(FacePosture::default);
+    expression.map(|expression| expression.fullest_face()).or(resting_face)
 }
 
 /// Returns a camera with a long lens.
