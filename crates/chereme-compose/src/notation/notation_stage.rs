@@ -107,7 +107,11 @@ impl StandingBody {
             return None;
         }
         let (skeleton, anatomy) = (Arc::clone(clip.clip_skeleton()), Arc::clone(&material.anatomy));
-        let base = clip.clip_pose_at(0);
+        Self::body_in_posture(skeleton, anatomy, clip.clip_pose_at(0))
+    }
+
+    /// Returns the body in a posture; `None` if it has no arm.
+    pub(crate) fn body_in_posture(skeleton: Arc<Skeleton>, anatomy: Arc<BodyAnatomy>, base: LocalPose) -> Option<Self> {
         let model = ModelPose::from_local_pose(&skeleton, &base);
         let measures = anatomy.anatomy_measures()?;
         let body = anatomy.body_frame(&model);

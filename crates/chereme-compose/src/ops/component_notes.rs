@@ -48,9 +48,21 @@ pub(crate) fn record_component_value(
     operator: &str,
 ) {
     let span = work.rate.frame_range_span(frames);
+    cut_notes_in_span(work, span, |note| note.hand == Some(side) && note.about == about);
+    work.notes.push(GeneratedNote {
+        hand: Some(side),
+        about,
+        value: ComponentReading::from(value),
+        span,
+        origin: operator.to_owned(),
+    });
+}
+
+/// Cuts those notes that `is_meant` names to the time outside of a span, and removes those within it.
+pub(crate) fn cut_notes_in_span(work: &mut WorkingClip, span: TimeSpan, is_meant: impl Fn(&GeneratedNote) -> bool) {
     let mut left = Vec::with_capacity(work.notes.len() + 2);
     for note in std::mem::take(&mut work.notes) {
-        if note.hand != Some(side) || note.about != about {
+        if !is_meant(&note) {
             left.push(note);
             continue;
         }
@@ -72,13 +84,6 @@ pub(crate) fn record_component_value(
         }
     }
     work.notes = left;
-    work.notes.push(GeneratedNote {
-        hand: Some(side),
-        about,
-        value: ComponentReading::from(value),
-        span,
-        origin: operator.to_owned(),
-    });
 }
 
 /// Notes the place of a moved hand: `value`, over the times of its earlier placements, or over `frames` if it had no

@@ -153,28 +153,32 @@ pub(crate) fn cut_work_span(
     cut: &SpanSettings,
     operator: &str,
 ) -> Result<Vec<String>, StepError> {
+    let frames = movement_part_frames(work, cut)?;
+    let mut did = vec![describe_cut_frames(work, &frames)];
+    // A span that is too long is understood, and said.
+    let end = work.working_clip_end();
+    if cut.to.is_some_and(|to| RecordingInstant::from_seconds(to.0) > end) {
+        did.push(format!("the movement ends at {end}"));
+    }
+    keep_work_frames(work, frames, operator);
+    Ok(did)
+}
+
+/// Returns the frames that begin in a part of the movement.
+pub(crate) fn movement_part_frames(work: &WorkingClip, part: &SpanSettings) -> Result<Range<usize>, StepError> {
     let full_span = work.working_clip_span();
     let cut_instant = |seconds: f64| RecordingInstant::from_seconds(seconds);
-    let from = cut
+    let from = part
         .from
         .map_or(full_span.span_start_instant(), |time| cut_instant(time.0));
-    let to = cut.to.map_or(full_span.span_end_instant(), |time| cut_instant(time.0));
+    let to = part.to.map_or(full_span.span_end_instant(), |time| cut_instant(time.0));
     let length = full_span.span_seconds();
     let none = || StepError::Cut { length };
     let asked_span = TimeSpan::new(from, to.max(from)).map_err(|_| none())?;
     let wanted = asked_span.span_intersection(full_span).ok_or_else(none)?;
     let wanted_frames = work.rate.frames_in(wanted);
     let frames = wanted_frames.start..wanted_frames.end.min(work.frames);
-    if frames.is_empty() {
-        return Err(none());
-    }
-    let mut did = vec![describe_cut_frames(work, &frames)];
-    // A span that is too long is understood, and said.
-    if to > full_span.span_end_instant() {
-        did.push(format!("the movement ends at {}", full_span.span_end_instant()));
-    }
-    keep_work_frames(work, frames, operator);
-    Ok(did)
+    (!frames.is_empty()).then_some(frames).ok_or_else(none)
 }
 
 /// Keeps the active frames; a movement without rest stays unchanged.

@@ -1,7 +1,5 @@
 //! `nonmanual … over … by phases`: transfers an expression of the face to other signs, phase by phase.
 
-use std::sync::Arc;
-
 use chereme_motion::glam::DQuat;
 use chereme_motion::interpolation::smooth_step;
 use chereme_motion::{BodyPart, RecordingInstant, TimeSpan};
@@ -11,8 +9,7 @@ use chereme_sign::milestones::{
 };
 
 use crate::error::StepError;
-use crate::ops::nonmanual_operator::{ExpressionTimes, NonmanualSettings};
-use crate::ops::retarget::{self, TargetBody};
+use crate::ops::nonmanual_operator::{ExpressionTimes, NonmanualSettings, donor_on_body};
 use crate::outcome::{GeneratedCurve, GeneratedNote, NoteSubject};
 use crate::recipe_inputs::ExpressionInput;
 use crate::sources::MovementMaterial;
@@ -45,12 +42,7 @@ pub(crate) fn transfer_expression(
         target,
         by_phases: settings.by_phases,
     };
-    let mut other = WorkingClip::working_clip_from(donor);
-    if other.skeleton != work.skeleton {
-        other = retarget::retarget_movement(&other, &TargetBody::at_rest(&work.skeleton, &work.anatomy))?;
-    } else {
-        other.skeleton = Arc::clone(&work.skeleton);
-    }
+    let mut other = donor_on_body(work, donor)?;
     let per_second = other.rate.per_second();
     let mut start = other.clone();
     // The posture at M1 is rest: the trunk takes over only how it differs from it.
@@ -64,7 +56,9 @@ pub(crate) fn transfer_expression(
         .collect();
     other.resample_channels(&sample_positions);
     let (head, trunk) = turn_head_and_trunk(work, &other, &start, &weights)?;
-    let mouth = blend_curves(work, other.curves, &weights, target.milestone_span());
+    let mouth = moves_mouth(work, target.milestone_span());
+    let stays = |curve: &GeneratedCurve| is_of_trunk(curve) || (mouth && is_of_mouth(curve));
+    blend_curves(work, other.curves, &weights, stays);
     take_notes(work, &other.notes, &course);
     work.note_changed_groups([JointGroup::Head, JointGroup::Trunk], operator);
     let mut did = vec![
@@ -249,7 +243,7 @@ fn nearer_quaternion(to: DQuat, rotation: DQuat) -> DQuat {
     if to.dot(rotation) < 0.0 { -rotation } else { rotation }
 }
 
-fn is_of_trunk(curve: &GeneratedCurve) -> bool {
+pub(crate) fn is_of_trunk(curve: &GeneratedCurve) -> bool {
     ["body.", "shoulders."].iter().any(|part| curve.name.starts_with(part))
 }
 
@@ -262,16 +256,24 @@ fn is_of_mouth(curve: &GeneratedCurve) -> bool {
     }
 }
 
-/// Blends the curves of the face by weight; returns whether the mouth kept its own movement.
-fn blend_curves(work: &mut WorkingClip, theirs: Vec<GeneratedCurve>, weights: &[f64], span: TimeSpan) -> bool {
+/// Returns whether the mouth moves in a span.
+fn moves_mouth(work: &WorkingClip, span: TimeSpan) -> bool {
     let frames = work.rate.frames_in(span);
     let moves = |curve: &GeneratedCurve| {
         let curve_part = curve.values.get(frames.start.min(curve.values.len())..);
         let inside = curve_part.unwrap_or_default().iter().take(frames.len());
         is_of_mouth(curve) && inside.into_iter().any(|value| value.abs() > QUIET_MOUTH_VALUE)
     };
-    let mouth = work.curves.iter().any(moves);
-    let stays = |curve: &GeneratedCurve| is_of_trunk(curve) || (mouth && is_of_mouth(curve));
+    work.curves.iter().any(moves)
+}
+
+/// Blends curves by weight, but for those that stay as they are.
+pub(crate) fn blend_curves(
+    work: &mut WorkingClip,
+    theirs: Vec<GeneratedCurve>,
+    weights: &[f64],
+    stays: impl Fn(&GeneratedCurve) -> bool,
+) {
     for curve in work.curves.iter_mut().filter(|curve| !stays(curve)) {
         for (value, weight) in curve.values.iter_mut().zip(weights) {
             *value *= 1.0 - weight;
@@ -292,7 +294,6 @@ fn blend_curves(work: &mut WorkingClip, theirs: Vec<GeneratedCurve>, weights: &[
             }),
         }
     }
-    mouth
 }
 
 /// Copies the notes about the expression, at the times that it has in this movement.

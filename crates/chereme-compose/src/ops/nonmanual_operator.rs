@@ -6,13 +6,14 @@ use chereme_sign::SignComponent;
 use chereme_sign::words::InterfaceText;
 
 use crate::error::StepError;
+use crate::ops::expression_operator::is_of_trunk;
 use crate::ops::retarget::{self, TargetBody};
-use crate::outcome::{GeneratedCurve, GeneratedNote, NoteSubject};
+use crate::outcome::{GeneratedNote, NoteSubject};
 use crate::sources::MovementMaterial;
 use crate::work::{JointGroup, WorkingClip, find_joint_groups};
 use std::fmt::{self, Display, Formatter};
 
-use chereme_motion::BodySide;
+use chereme_motion::{BodySide, RecordingInstant, TimeSpan};
 use chereme_sign::SignerHandedness;
 use serde::{Deserialize, Serialize};
 
@@ -216,19 +217,8 @@ pub(crate) fn transfer_nonmanuals(
     donor: &MovementMaterial,
     operator: &str,
 ) -> Result<Vec<String>, StepError> {
-    let mut other = WorkingClip::working_clip_from(donor);
-    let (seconds, own) = (
-        other.working_clip_span().span_seconds(),
-        work.working_clip_span().span_seconds(),
-    );
-    if other.skeleton != work.skeleton {
-        other = retarget::retarget_movement(&other, &TargetBody::at_rest(&work.skeleton, &work.anatomy))?;
-    } else {
-        other.skeleton = Arc::clone(&work.skeleton);
-    }
-    let last = (other.frames - 1) as f64 / work.frames.saturating_sub(1).max(1) as f64;
-    let sample_positions: Vec<f64> = (0..work.frames).map(|frame| frame as f64 * last).collect();
-    other.resample_channels(&sample_positions);
+    let own = work.working_clip_span();
+    let other = fit_donor_movement(work, donor, own)?;
     let groups = find_joint_groups(&work.skeleton, &work.anatomy);
     let head: Vec<usize> = (0..groups.len()).filter(|&j| groups[j] == JointGroup::Head).collect();
     if head.is_empty() {
@@ -239,32 +229,53 @@ pub(crate) fn transfer_nonmanuals(
     }
     let is_nonmanual = |note: &GeneratedNote| matches!(note.about, NoteSubject::Component(SignComponent::NonManual, _));
     work.notes.retain(|note| !is_nonmanual(note));
-    let stretch = own / seconds.max(1e-9);
-    let scaled = |instant: chereme_motion::RecordingInstant| {
-        chereme_motion::RecordingInstant::from_seconds(instant.instant_seconds() * stretch).min(work.working_clip_end())
-    };
-    let notes: Vec<GeneratedNote> = other
-        .notes
-        .iter()
-        .filter(|note| is_nonmanual(note))
-        .map(|note| GeneratedNote {
-            span: chereme_motion::TimeSpan::span_between(
-                scaled(note.span.span_start_instant()),
-                scaled(note.span.span_end_instant()),
-            ),
-            ..note.clone()
-        })
-        .collect();
-    work.notes.extend(notes);
+    work.notes.extend(other.notes.into_iter().filter(is_nonmanual));
     // Trunk and shoulders keep this sign's movement.
-    let of_body = |curve: &GeneratedCurve| ["body.", "shoulders."].iter().any(|part| curve.name.starts_with(part));
-    work.curves.retain(of_body);
+    work.curves.retain(is_of_trunk);
     work.curves
-        .extend(other.curves.into_iter().filter(|curve| !of_body(curve)));
+        .extend(other.curves.into_iter().filter(|curve| !is_of_trunk(curve)));
     work.note_changed_groups([JointGroup::Head], operator);
+    let (seconds, own) = (donor.clip.clip_span().span_seconds(), own.span_seconds());
     Ok(vec![format!(
         "{} joints of the head from {} ({seconds:.2} s stretched to {own:.2} s)",
         head.len(),
         donor.address
     )])
+}
+
+/// Returns another sign's movement on this one's body.
+pub(crate) fn donor_on_body(work: &WorkingClip, donor: &MovementMaterial) -> Result<WorkingClip, StepError> {
+    let mut other = WorkingClip::working_clip_from(donor);
+    if other.skeleton != work.skeleton {
+        return retarget::retarget_movement(&other, &TargetBody::at_rest(&work.skeleton, &work.anatomy));
+    }
+    other.skeleton = Arc::clone(&work.skeleton);
+    Ok(other)
+}
+
+/// Returns another sign's movement and notes on this one's body, stretched to a part of this one's time; before and after
+/// that part it stands still.
+pub(crate) fn fit_donor_movement(
+    work: &WorkingClip,
+    donor: &MovementMaterial,
+    part: TimeSpan,
+) -> Result<WorkingClip, StepError> {
+    let mut other = donor_on_body(work, donor)?;
+    let stretch = part.span_seconds() / donor.clip.clip_span().span_seconds().max(1e-9);
+    let frames = work.rate.frames_in(part);
+    let step = (other.frames - 1) as f64 / frames.len().saturating_sub(1).max(1) as f64;
+    let sample_positions: Vec<f64> = (0..work.frames)
+        .map(|frame| (frame as f64 - frames.start as f64) * step)
+        .collect();
+    other.resample_channels(&sample_positions);
+    let start = part.span_start_instant();
+    let stretched = |instant: RecordingInstant| {
+        let seconds = start.instant_seconds() + instant.instant_seconds() * stretch;
+        RecordingInstant::from_seconds(seconds).min(part.span_end_instant())
+    };
+    for note in &mut other.notes {
+        let ends = [note.span.span_start_instant(), note.span.span_end_instant()].map(stretched);
+        note.span = TimeSpan::span_between(ends[0], ends[1]);
+    }
+    Ok(other)
 }
