@@ -45,6 +45,9 @@ pub enum RecipeError {
         /// A description of the missing thing.
         what: &'static str,
     },
+    /// A part of the face does not have a value.
+    #[error("face: {0}")]
+    Face(#[from] UnknownFaceWord),
     /// There are too many operators, or they are nested too deep.
     #[error("a recipe has at most {most} {what}; split it and store the parts as signs")]
     Size {
@@ -98,6 +101,9 @@ pub enum RecipeTextProblem {
     /// A quotation mark or parenthesis is not closed.
     #[error("this {0} is never closed")]
     Unclosed(char),
+    /// A part of the face, or a value of it, does not exist.
+    #[error(transparent)]
+    Face(#[from] UnknownFaceWord),
     /// The query in `best(...)` is invalid.
     #[error("the query is not understood: {0}")]
     Query(String),
@@ -107,6 +113,18 @@ pub enum RecipeTextProblem {
     /// Parentheses are nested too deep.
     #[error("parentheses are nested deeper than {0}")]
     TooDeep(usize),
+}
+
+/// A part that a face does not have, or a value that a part of it does not have.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{of} has no {text:?}; write {}", near.join(", "))]
+pub struct UnknownFaceWord {
+    /// The face, or the part of it as recipes name it.
+    pub of: &'static str,
+    /// The part or value as written.
+    pub text: String,
+    /// Similar words that would be valid, or all of them.
+    pub near: Vec<String>,
 }
 
 /// A recipe that cannot be evaluated: the step at fault, the reason, and a remedy.

@@ -47,6 +47,7 @@ mod error;
 mod evaluate;
 mod explain;
 mod face;
+mod face_parts;
 #[cfg(test)]
 #[path = "../../../tests/shared/golden.rs"]
 mod golden;
@@ -77,10 +78,13 @@ mod work;
 pub use cue_timing::{CuePhases, PhaseRule};
 pub use curve::MeasuredSpline;
 pub use draft::RecipeDraft;
-pub use error::{MakeError, MeantName, RecipeError, RecipeTextProblem, SourceError, StepError, TextError};
+pub use error::{
+    MakeError, MeantName, RecipeError, RecipeTextProblem, SourceError, StepError, TextError, UnknownFaceWord,
+};
 pub use evaluate::{ENGINE_VERSION, evaluate_recipe};
 pub use explain::shorten_step_text;
 pub use face::{FACE_NUMBER_PREFIX, faces_from_curves};
+pub use face_parts::FacePart;
 pub use language::{BodyLanguageChanges, LanguageValue};
 pub use learn::{CapturedStretch, CourseLearner, bridge_captured_stretch, learn_course};
 pub use lookup::{letters_in, value_in};

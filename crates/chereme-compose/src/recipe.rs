@@ -9,6 +9,7 @@ mod tests;
 
 use serde::{Deserialize, Serialize};
 
+pub use crate::face_parts::FacePart;
 pub use crate::ops::settings::*;
 pub use crate::ops::{FieldSetting, OperatorDescription, OperatorField, Step};
 pub use crate::recipe_settings::*;

@@ -269,7 +269,7 @@ impl RecipeResolver<'_> {
     ) -> Result<MaterialSigner, MakeError> {
         let of = former.as_ref().map(FormerPart::former_operand);
         let same = of.as_ref().is_some_and(|of| of.is_same_node(&pipe.of));
-        let on_faces = |step: &Step| matches!(step, Step::Nonmanual(_));
+        let on_faces = |step: &Step| matches!(step, Step::Nonmanual(_) | Step::Face(_));
         let is_sign = matches!(*pipe.of, RecipeNode::Sign(_));
         // A sign that is only given a face may be one without movement.
         self.takes_faces = is_sign && pipe.steps.iter().all(on_faces);

@@ -37,6 +37,13 @@ operator-nonmanual-hint = head and face of another sign
 guide-operator-nonmanual-head-face-another = head and face of another sign
 guide-operator-nonmanual-expression-fitted-part = an expression, fitted to a part by its milestones
 
+operator-face-title = Face
+operator-face-hint = brows, eyes, mouth, head: values of their own
+guide-operator-face-values-of-parts = brows, eyes and mouth, over a part of the sign
+guide-operator-face-share-of-value = half of a value, and a shaking head
+guide-operator-face-mouthing = a mouthing, by its sounds in SAMPA
+guide-operator-face-face-alone-another = the face of another sign, without its head
+
 operator-on-title = Body
 operator-on-hint = on another body
 guide-operator-on-another-body = on the body of another signer, or in another recording
@@ -106,6 +113,11 @@ message-operator-mouth-keeps-own-movement = the mouth keeps its own movement
 message-operator-first-s-lie-before-movement-not-seen = the first { $time } s lie before the movement and are not seen
 message-operator-last-s-lie-after-movement-not-seen = the last { $time } s lie after the movement and are not seen
 message-operator-joints-head-trunk = { $head } joints of the head and { $trunk } of the trunk
+message-operator-face-shows = the face shows { $values } from { $from } to { $to }
+message-operator-face-from-s-stretched-s = the face from { $sign } ({ $own } s stretched to { $time } s)
+message-operator-no-part-face-given-write-one = no part of the face is given; write one with its value, such as brows=raised
+message-operator-part-with-value-such-as-brows = a part with its value, such as brows=raised (brows, eyes, cheeks, nose, mouth, mouthing, gaze, head), or "from" and a sign
+message-operator-sounds-word-in-sampa-such-as = the sounds of a word in SAMPA, such as "bOl"
 message-operator-hand-turned-by = the { $side } hand is turned by { $angle }
 message-operator-wrist-bends-by-more-than-wrists-can = the { $limb } wrist bends by { $angle }, more than wrists can
 message-operator-neither-palm-nor-fingers-nor-turn-given = neither palm nor fingers nor a turn is given
@@ -171,4 +183,5 @@ setting-to-spot = to
 setting-from-time = from
 setting-to-time = to
 setting-size = Size
+setting-face = Face
 setting-body = Body

@@ -37,6 +37,13 @@ operator-nonmanual-hint = tête et visage d’un autre signe
 guide-operator-nonmanual-head-face-another = tête et visage d’un autre signe
 guide-operator-nonmanual-expression-fitted-part = une expression, ajustée à une partie par ses jalons
 
+operator-face-title = Visage
+operator-face-hint = sourcils, yeux, bouche, tête : des valeurs propres
+guide-operator-face-values-of-parts = sourcils, yeux et bouche, sur une partie du signe
+guide-operator-face-share-of-value = la moitié d’une valeur, et la tête qui secoue
+guide-operator-face-mouthing = une labialisation, par ses sons en SAMPA
+guide-operator-face-face-alone-another = le visage d’un autre signe, sans sa tête
+
 operator-on-title = Corps
 operator-on-hint = sur un autre corps
 guide-operator-on-another-body = sur le corps d’un autre signeur, ou d’un autre enregistrement
@@ -106,6 +113,11 @@ message-operator-mouth-keeps-own-movement = la bouche garde son propre mouvement
 message-operator-first-s-lie-before-movement-not-seen = les premières { $time } s sont avant le mouvement et ne se voient pas
 message-operator-last-s-lie-after-movement-not-seen = les dernières { $time } s sont après le mouvement et ne se voient pas
 message-operator-joints-head-trunk = { $head } articulations de la tête et { $trunk } du tronc
+message-operator-face-shows = le visage montre { $values } de { $from } à { $to }
+message-operator-face-from-s-stretched-s = le visage de { $sign } ({ $own } s étirées à { $time } s)
+message-operator-no-part-face-given-write-one = aucune partie du visage n’est donnée ; écrivez-en une avec sa valeur, comme brows=raised
+message-operator-part-with-value-such-as-brows = une partie avec sa valeur, comme brows=raised (brows, eyes, cheeks, nose, mouth, mouthing, gaze, head), ou « from » et un signe
+message-operator-sounds-word-in-sampa-such-as = les sons d’un mot en SAMPA, comme « bOl »
 message-operator-hand-turned-by = la main { $side } est tournée de { $angle }
 message-operator-wrist-bends-by-more-than-wrists-can = le poignet { $limb } se plie de { $angle }, plus qu’un poignet ne peut
 message-operator-neither-palm-nor-fingers-nor-turn-given = ni la paume, ni les doigts, ni une rotation ne sont donnés
@@ -171,4 +183,5 @@ setting-to-spot = à
 setting-from-time = à partir de
 setting-to-time = jusqu’à
 setting-size = Ampleur
+setting-face = Visage
 setting-body = Corps

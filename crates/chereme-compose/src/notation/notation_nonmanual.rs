@@ -7,6 +7,7 @@
 use std::f64::consts::{PI, TAU};
 
 use chereme_motion::glam::{DQuat, DVec3};
+use chereme_motion::interpolation::smooth_step;
 use chereme_motion::{BodyPart, BodySide, JointChannel};
 use chereme_sign::hamnosys::{
     BodyLanguage, NonmanualAct, NonmanualPart, NonmanualTier, NotatedSign, TierEnd, TierStart,
@@ -34,9 +35,7 @@ struct TimedAct<'a> {
 impl TimedAct<'_> {
     /// Returns its intensity at a time, from 0 to 1.
     fn act_intensity_at(&self, time: f64) -> f64 {
-        let rise = (time - self.from + self.attack) / self.attack.max(1e-6);
-        let fall = (self.to + self.release - time) / self.release.max(1e-6);
-        smooth_act_share(rise).min(smooth_act_share(fall))
+        intensity_over_span(time, [self.from, self.to], [self.attack, self.release])
     }
 
     /// Begins a nod or a shake earlier and ends it later if the hands leave too little time for it.
@@ -109,6 +108,17 @@ pub(crate) fn nonmanual_curves(
         }
     }
     curves
+}
+
+/// Returns the weight of an act over a span of time, in seconds, in each of `total` frames: 1 within the span, less in the
+/// attack before it and in the release after it.
+pub(crate) fn weights_over_span(span: [f64; 2], rate: f64, total: usize) -> Vec<f64> {
+    let language = BodyLanguage::default_body_language();
+    let blends = [language.time_attack, language.time_release];
+    let frames = 0..total;
+    frames
+        .map(|frame| intensity_over_span(frame as f64 / rate, span, blends))
+        .collect()
 }
 
 /// Returns the rotations of the written acts in each frame, and the degree to which the acts control head and trunk.
@@ -424,7 +434,9 @@ impl TurnedJoints {
     }
 }
 
-fn smooth_act_share(share: f64) -> f64 {
-    let share = share.clamp(0.0, 1.0);
-    share * share * (3.0 - 2.0 * share)
+/// Returns the intensity at a time of an act over a span, with its attack before and its release after it, in seconds.
+fn intensity_over_span(time: f64, [from, to]: [f64; 2], [attack, release]: [f64; 2]) -> f64 {
+    let rise = (time - from + attack) / attack.max(1e-6);
+    let fall = (to + release - time) / release.max(1e-6);
+    smooth_step(rise).min(smooth_step(fall))
 }

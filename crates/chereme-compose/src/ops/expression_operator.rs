@@ -9,6 +9,7 @@ use chereme_sign::milestones::{
 };
 
 use crate::error::StepError;
+use crate::face_parts::FacePart;
 use crate::ops::nonmanual_operator::{ExpressionTimes, NonmanualSettings, donor_on_body};
 use crate::outcome::{GeneratedCurve, GeneratedNote, NoteSubject};
 use crate::recipe_inputs::ExpressionInput;
@@ -248,12 +249,10 @@ pub(crate) fn is_of_trunk(curve: &GeneratedCurve) -> bool {
 }
 
 fn is_of_mouth(curve: &GeneratedCurve) -> bool {
-    const MOUTH_NUMBER_NAMES: [&str; 7] = ["jaw_", "lips_", "mouth_", "lip_", "teeth_", "tongue_", "cheek_"];
-    match curve.name.split_once('.') {
-        Some(("face", number)) => MOUTH_NUMBER_NAMES.iter().any(|part| number.starts_with(part)),
-        Some((part, _)) => ["mouth", "mouthing", "teeth", "tongue"].contains(&part),
-        None => false,
-    }
+    matches!(
+        FacePart::of_curve_name(&curve.name),
+        Some(FacePart::Mouth | FacePart::Cheeks)
+    )
 }
 
 /// Returns whether the mouth moves in a span.

@@ -1,9 +1,11 @@
 //! The common settings of operators, described for a form.
 
+use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
 use chereme_sign::words::InterfaceText;
 
+use crate::face_parts::FacePart;
 use crate::recipe_settings::{PostureTransition, SigningSpot};
 use crate::units::{BodyDirection, HandChoice, RecipeFactor, RecipeLength, RecipeSeconds};
 
@@ -59,6 +61,8 @@ pub enum OperatorField<'a> {
     Sign(&'a mut String),
     /// The address of a body.
     Body(&'a mut String),
+    /// Values of the parts of the face.
+    Face(&'a mut BTreeMap<FacePart, String>),
     /// A transition.
     Via(&'a mut PostureTransition),
 }

@@ -26,6 +26,7 @@ pub(crate) mod configure;
 pub(crate) mod cut;
 mod description;
 pub(crate) mod expression_operator;
+pub(crate) mod face_operator;
 mod field_operator;
 pub(crate) mod indicate;
 pub(crate) mod join;
@@ -97,6 +98,8 @@ pub(crate) trait OperatorSyntax: StepOperator + Sized {
     const OPERATOR_DESCRIPTION: OperatorDescription;
     /// The words that begin the text.
     const OPERATOR_WORDS: &'static [&'static str] = &[Self::OPERATOR_NAME];
+    /// Further words that begin the text, which stay free as names.
+    const OPERATOR_SYNONYMS: &'static [&'static str] = &[];
 
     /// Reads the settings after `word`, the word that began the operator.
     fn parse_operator_text(parser: &mut RecipeParser<'_>, word: &str) -> ParsedText<Self>;
@@ -228,7 +231,9 @@ macro_rules! operators {
 
             /// Reads the operator that `word` begins; `None` for other words.
             pub(crate) fn parse(parser: &mut RecipeParser<'_>, word: &str) -> Option<ParsedText<Self>> {
-                $(if <operators!(@type $module $name $($settings)?)>::OPERATOR_WORDS.contains(&word) {
+                $(if <operators!(@type $module $name $($settings)?)>::OPERATOR_WORDS.contains(&word)
+                    || <operators!(@type $module $name $($settings)?)>::OPERATOR_SYNONYMS.contains(&word)
+                {
                     let read = OperatorSyntax::parse_operator_text(parser, word);
                     return Some(read.map(operators!(@step $module $name $($settings)?)));
                 })*
@@ -285,6 +290,8 @@ operators! {
     Indicate(IndicateSettings) in indicate;
     /// Takes head and face from another sign.
     Nonmanual(NonmanualSettings) in nonmanual_operator with ExpressionTimes;
+    /// Gives the face values of its own, or the face of another sign.
+    Face(FaceSettings) in face_operator;
     /// Puts the movement on another body.
     On(OnBodySettings) in on_body with BUILT_IN_BODY;
 }

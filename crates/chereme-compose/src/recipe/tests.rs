@@ -70,6 +70,19 @@ fn recipes_as_people_write_them_are_parsed_and_printed() {
         ("A | nonmanual from B by phases", ""),
         ("A | nonmanual wh from B over 0.4s..1.9s by phases | swap", ""),
         ("A | nonmanual from B over ..1.9s", ""),
+        ("A | face brows=raised eyes=squint mouth=o over 0.2s..0.9s", ""),
+        (
+            "A | face head=SH*50% lids=SB | mouth \"bOl\" over ..0.9s",
+            "A | face eyes=SB head=SH*50% | face mouthing=bOl over ..0.9s",
+        ),
+        (
+            "A | face mouthing=\"b O l*0.5\" | face from B brows=neutral then B",
+            "A | face mouthing=\"b O l*0.5\" | face from B brows=neutral then B",
+        ),
+        (
+            "A | place right at mouth | face gaze=left | mouth bOl then mouth",
+            "A | place right at mouth | face gaze=left | face mouthing=bOl then mouth",
+        ),
         ("A | on signer:2 | on \"built-in body\" | on built-in", ""),
         (
             "A | nonmanual from B over -500ms,0s,0.4s,1s,1.5s by phases",
@@ -340,6 +353,13 @@ fn step() -> impl Strategy<Value = Step> {
                 by_phases,
             })
         }),
+        (of(name()), shown_parts(), over()).prop_map(|(from, show, over)| {
+            let over = match over {
+                Some(ExpressionTimes::Part(part)) => part,
+                _ => SpanSettings::default(),
+            };
+            Step::Face(FaceSettings { from, show, over })
+        }),
         Just(Step::Trim),
         (of(0.0f64..1.0), 1.1f64..5.0).prop_map(|(from, to)| Step::Span(SpanSettings {
             from: from.map(RecipeSeconds),
@@ -353,6 +373,19 @@ fn step() -> impl Strategy<Value = Step> {
             })
         }),
     ]
+}
+
+fn shown_parts() -> impl Strategy<Value = std::collections::BTreeMap<FacePart, String>> {
+    let parts = proptest::sample::select(FacePart::ALL_FACE_PARTS.to_vec());
+    let shown = (parts, any::<proptest::sample::Index>(), of(0.0f64..1.0)).prop_map(|(part, at, share)| {
+        let values = &part.face_part_inventory().values;
+        let value = match values.is_empty() {
+            true => "b O:l\"",
+            false => &values[at.index(values.len())].id,
+        };
+        (part, share.map_or(value.to_owned(), |share| format!("{value}*{share}")))
+    });
+    vec(shown, 1..4).prop_map(|all| all.into_iter().collect())
 }
 
 fn over() -> impl Strategy<Value = Option<ExpressionTimes>> {

@@ -50,6 +50,7 @@ fn curves_keep_the_length_of_the_movement_through_every_operator() {
         "LIMACE then BOL then BOL",
         "BOL | place both by up 5cm | swap",
         "ESCARGOT | nonmanual from BOL",
+        "ESCARGOT | face from BOL | face brows=raised over 0.2s..0.4s | repeat 2",
     ] {
         let made = made(recipe, &shelf);
         assert!(!made.curves.is_empty(), "{recipe}");

@@ -4,6 +4,7 @@ mod choices;
 mod curves;
 mod draft;
 mod expression;
+mod face;
 mod goldens;
 mod joining;
 mod laws;

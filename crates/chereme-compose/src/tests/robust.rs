@@ -43,6 +43,8 @@ fn operators_name_the_part_that_a_body_lacks() {
         ("RightHand", "configure right U", "right hand has no fingers"),
         ("RightHandIndex", "configure right U", "right hand has no fingers"),
         ("Neck", "nonmanual from BOL", "no head"),
+        ("Neck", "face head=nodding", "no head"),
+        ("Neck", "face brows=raised", ""),
         ("Left", "place right by up 5cm", ""),
         ("Left", "reverse | repeat 2", ""),
     ] {
@@ -59,7 +61,7 @@ fn operators_name_the_part_that_a_body_lacks() {
 }
 
 /// Steps of every kind, some of them impossible.
-const STEPS: [&str; 26] = [
+const STEPS: [&str; 28] = [
     "configure right U",
     "configure both from BOL",
     "configure left S, _ via 0s",
@@ -86,6 +88,8 @@ const STEPS: [&str; 26] = [
     "retime 2, 1, 50%",
     "nonmanual from CHAT",
     "from me to you",
+    "face brows=raised mouth=o head=shaking over 0.1s..0.3s",
+    "mouth \"bOl\"",
 ];
 const SOURCES: [&str; 6] = [
     "ESCARGOT",

@@ -78,7 +78,7 @@ fn lex_recipe_word(text: &str, start: usize) -> Result<(RecipeTokenKind, String,
         let query = text[end + 1..close].trim().to_owned();
         return Ok((RecipeTokenKind::Query, query, close + 1));
     }
-    if text[start..end].ends_with(':') && text[end..].starts_with('"') {
+    if text[start..end].ends_with([':', '=']) && text[end..].starts_with('"') {
         end = quote_end(text, end)?;
     }
     Ok((RecipeTokenKind::Word, text[start..end].to_owned(), end))
@@ -115,7 +115,7 @@ fn close_of(text: &str, open: usize) -> Result<usize, TextError> {
     Err(text_fault_at(text, open, RecipeTextProblem::Unclosed('(')))
 }
 
-fn unquote(quoted: &str) -> String {
+pub(super) fn unquote(quoted: &str) -> String {
     let mut plain = String::with_capacity(quoted.len());
     let mut chars = quoted[1..quoted.len() - 1].chars();
     while let Some(c) = chars.next() {

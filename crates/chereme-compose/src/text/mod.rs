@@ -6,4 +6,4 @@ mod text_print;
 
 pub(crate) use lexer::RecipeTokenKind;
 pub(crate) use text_parse::{ParsedText, RecipeParser};
-pub(crate) use text_print::{QuotedName, point_text, write_option, write_separated_list};
+pub(crate) use text_print::{QuotedName, point_text, quote_recipe_text, write_option, write_separated_list};

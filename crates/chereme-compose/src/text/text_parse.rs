@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use super::lexer::{RecipeTextToken, RecipeTokenKind, lex_recipe_text, text_fault_at};
+use super::lexer::{RecipeTextToken, RecipeTokenKind, lex_recipe_text, text_fault_at, unquote};
 use crate::cue_timing::PhaseRule;
 use crate::error::{RecipeTextProblem, TextError};
 use crate::recipe_settings::*;
@@ -479,6 +479,16 @@ impl<'a> RecipeParser<'a> {
         is_match
     }
 
+    /// Reads a word such as `brows=raised`: its name, and its value without quotes.
+    pub(crate) fn accept_assignment(&mut self) -> Option<(String, String)> {
+        let (name, value) = self.current_word()?.split_once('=')?;
+        let is_quoted = value.starts_with('"');
+        let value = if is_quoted { unquote(value) } else { value.to_owned() };
+        let assignment = (name.to_owned(), value);
+        self.at += 1;
+        Some(assignment)
+    }
+
     /// Reads a sign of this kind if one is next.
     pub(crate) fn accept_kind(&mut self, kind: RecipeTokenKind) -> bool {
         let is_match = self.peek_recipe_token().is_some_and(|token| token.kind == kind);
@@ -505,6 +515,12 @@ impl<'a> RecipeParser<'a> {
             found: token_text,
             nearest,
         })
+    }
+
+    /// Returns an error at the word that was read last.
+    pub(crate) fn fault_at_last_word(&mut self, problem: RecipeTextProblem) -> TextError {
+        self.at -= 1;
+        self.fault_at_position(problem)
     }
 
     fn fault_at_position(&self, problem: RecipeTextProblem) -> TextError {

@@ -7,14 +7,14 @@ use crate::units::{BodyDirection, HandChoice, RecipeLength};
 
 /// Every word with a meaning somewhere in recipes; as a name it is quoted.
 #[rustfmt::skip]
-const RESERVED_RECIPE_WORDS: [&str; 45] = [
+const RESERVED_RECIPE_WORDS: [&str; 46] = [
     // Words of several places.
     "then", "via", "with", "on", "hold", "by", "at", "_", "best", "in", "out", "about", "forwards", "backwards",
     // The words that begin sources.
     "spell", "point", "cue", "hamnosys", "sigml",
     // The words that begin operators, which a test compares with the list of operators, and those inside their settings.
     "configure", "place", "orient", "travel", "amplify", "repeat", "reverse", "swap", "mirror", "retime",
-    "span", "trim", "from", "to", "nonmanual",
+    "span", "trim", "from", "to", "nonmanual", "face",
     "near", "using", "palm", "fingers", "scale", "tempo", "gap", "me", "you", "over", "phases",
 ];
 
@@ -27,15 +27,13 @@ impl Display for QuotedName<'_> {
         if is_plain(name) || is_address(name) {
             return f.write_str(name);
         }
-        f.write_str("\"")?;
-        for c in name.chars() {
-            if c == '"' || c == '\\' {
-                f.write_str("\\")?;
-            }
-            write!(f, "{c}")?;
-        }
-        f.write_str("\"")
+        f.write_str(&quote_recipe_text(name))
     }
+}
+
+/// Returns a text in quotes.
+pub(crate) fn quote_recipe_text(text: &str) -> String {
+    format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\""))
 }
 
 fn is_plain(name: &str) -> bool {

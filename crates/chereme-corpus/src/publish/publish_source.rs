@@ -75,5 +75,7 @@ fn inputs_of(document: &str) -> Option<RecipeInputs> {
 
 /// Returns whether the movement at a path of a recipe is used, and not only its body.
 fn gives_movement(path: &str) -> bool {
-    path.ends_with("/sign") || path.ends_with("/nonmanual/from")
+    ["/sign", "/nonmanual/from", "/face/from"]
+        .iter()
+        .any(|end| path.ends_with(end))
 }

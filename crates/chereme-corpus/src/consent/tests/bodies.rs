@@ -11,7 +11,7 @@ const NOTATED: &str = r#"<sigml><hamgestural_sign gloss="MERCI"><sign_manual>
 </sign_manual></hamgestural_sign></sigml>"#;
 
 /// Recipes of every form, and whether they use the body that the corpus chooses, that of BOL, or something else of BOL.
-const FORMS: [(&str, bool); 20] = [
+const FORMS: [(&str, bool); 21] = [
     ("MERCI", true),
     ("MERCI | place both by up 1cm", true),
     ("MERCI | trim | repeat 2", true),
@@ -19,6 +19,7 @@ const FORMS: [(&str, bool); 20] = [
     ("MERCI then BOL", true),
     ("BOL then MERCI", true),
     ("BOL | nonmanual from MERCI", true),
+    ("ESCARGOT | face brows=raised", false),
     ("FIRST", true),
     ("FIRST | mirror", true),
     ("sigml MERCI", true),

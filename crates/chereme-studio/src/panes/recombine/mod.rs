@@ -4,6 +4,7 @@ mod cards;
 mod catalogue;
 mod live;
 mod operators;
+mod recombine_face;
 mod recombine_fields;
 mod recombine_path;
 mod recombine_report;

@@ -302,6 +302,18 @@ pub(super) fn of_inventory(
         .map(|stored| &stored.inventory)
         .filter(|inventory| inventory.component == component && inventory.feature.is_none())
         .collect();
+    show_inventory_line(ui, seen, id, &all, [name, hint].map(|text| seen.say_text(text)), text)
+}
+
+/// Shows a value of some inventories: a text field with completion, and the picker of the inventory that has the value.
+pub(super) fn show_inventory_line(
+    ui: &mut Ui,
+    seen: &PaneInput<'_>,
+    id: Id,
+    all: &[&ComponentInventory],
+    [name, hint]: [&str; 2],
+    text: &mut String,
+) -> bool {
     let equal = &seen.snapshot.overview.equal_values;
     let stands_alone =
         |inventory: &ComponentInventory, id: &str| !equal.has_stand_in(all.iter().copied(), &inventory.id, id);
@@ -312,8 +324,8 @@ pub(super) fn of_inventory(
     let candidates = |typed: &str| fitting_candidates(values.clone().map(|value| value.id.as_str()), typed);
     let about = |id: &str| inventory_value_name(values.clone().find(|value| value.id == id)?, seen);
     let line = CompletionLine {
-        name: seen.say_text(name),
-        hint: seen.say_text(hint),
+        name,
+        hint,
         width: (ui.available_width() - 110.0).clamp(60.0, 100.0),
         takes_only: true,
         about: Some(&about),
@@ -338,7 +350,7 @@ pub(super) fn of_inventory(
         }
     }
     let chosen = Some(text.as_str()).filter(|text| inventory.find_inventory_value(text).is_some());
-    let name = format!("{}…", seen.say_text(name));
+    let name = format!("{name}…");
     let picked = pickers::show_picker_button(ui, &mut picker, seen, inventory, chosen, &name);
     if let Some(thing) = picker.take_requested_value(seen) {
         ui.data_mut(|data| data.insert_temp(Id::unique(REQUESTED_DETAILS_KEY), thing));

@@ -8,7 +8,7 @@ use eframe::egui::{DragValue, Id, Role, Ui, WidgetInfo};
 
 use super::recombine_fields::{self, show_field_caption, show_value_choice};
 use super::stack::CardContent;
-use super::{operators, recombine_path, spots};
+use super::{operators, recombine_face, recombine_path, spots};
 use crate::context::PaneInput;
 use crate::panes::button_width;
 use crate::pickers::{board, pickers_hamnosys};
@@ -289,6 +289,7 @@ fn by_fields(ui: &mut Ui, seen: &PaneInput<'_>, at: SettingsCard, all: Vec<Field
                 | OperatorField::Directions(_)
                 | OperatorField::Spot(_)
                 | OperatorField::Sign(_)
+                | OperatorField::Face(_)
                 | OperatorField::Via(_) => {
                     below.push(setting);
                     false
@@ -312,6 +313,7 @@ fn by_fields(ui: &mut Ui, seen: &PaneInput<'_>, at: SettingsCard, all: Vec<Field
             }
             OperatorField::Spot(spot) => spots::optional_spot(ui, seen, at.id.with(label.text_id()), label, spot),
             OperatorField::Sign(name) => recombine_fields::show_sign_field(ui, seen, at.id, text, name),
+            OperatorField::Face(show) => recombine_face::show_face_parts(ui, seen, at.id, show),
             OperatorField::Via(via) => show_card_transition(ui, seen, at, via),
             _ => false,
         });

@@ -115,7 +115,7 @@ const SOURCES: [&str; 7] = [
     "sigml HUIS",
     "(A then B | swap)",
 ];
-const STEPS: [&str; 18] = [
+const STEPS: [&str; 20] = [
     "configure right U",
     "configure both from LION via 0.1s",
     "configure right U, _",
@@ -132,6 +132,8 @@ const STEPS: [&str; 18] = [
     "from me to left",
     "retime 1, 50%, to 0.3s",
     "nonmanual from B",
+    "face brows=raised mouthing=bOl over 0.2s..0.9s",
+    "face from B",
     "span 0.4s..1.9s",
     "trim",
 ];
