@@ -154,7 +154,7 @@ pub use detect::{
 };
 pub use edit::{RecordingChange, SignChange, SignerChange};
 pub use error::{CorpusError, CorpusResult, DatabaseFailureCause, FailedStep, MeantName, WrongQuery};
-pub use export::{ExportOptions, ExportReport, ExportWhat, ExportedFile};
+pub use export::{ExportOptions, ExportReport, ExportWhat, ExportedFile, MovementForm};
 pub use face::{
     ChooseOptions, FACE_CHANNELS, FaceChannel, FaceFinding, FaceFit, FaceNumber, FaceReport, FaceScore, FittedNumber,
     FoundExpression, FoundExpressions, MilestoneOptions, NonmanualOnsets, NumberQuartiles, OnsetRow, PerformanceChoice,

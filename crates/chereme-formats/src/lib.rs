@@ -1,6 +1,7 @@
 //! Reads and writes foreign files: translates them to the models of movement and signs, and back.
 
 pub mod anvil;
+pub mod avatar_rig;
 pub mod bvh;
 pub mod c3d;
 pub mod compare;

@@ -163,6 +163,6 @@ message-editing-values-kept-apart = the inventory { $inventory } keeps these val
 message-editing-merge-values-first = if they are one there, too, merge them first: `chereme inventory CORPUS merge-value INVENTORY VALUE OTHER`
 message-editing-no-lexicon-to-unite = there is no lexicon to make one with { $name }
 message-editing-name-other-lexicon = name at least one other lexicon
-message-editing-say-true-of-lexicons = say of both the one that is true first: `chereme lexicon CORPUS set NAME --release TEXT`
+message-editing-say-true-of-lexicons = first give both the one that is true: `chereme lexicon CORPUS set NAME --language CODE`; --release, --terms and --citation set the others
 message-editing-entry-of-another-row = both have an entry { $gloss } of another row: that of { $from } is { $label } here
 message-editing-entry-coded-differently = the entry { $gloss } is coded differently in { $from }: both codings are kept

@@ -3,6 +3,8 @@
 window-export-title = Export
 window-export-what = What
 window-export-format = Format
+window-export-skeleton = Skeleton
+window-export-captured = as captured
 window-export-where = Where to
 window-export-replace = Replace the existing file
 window-export-write = Write

@@ -163,6 +163,6 @@ message-editing-values-kept-apart = l’inventaire { $inventory } distingue ces 
 message-editing-merge-values-first = si elles n’y font qu’une aussi, fusionnez-les d’abord : `chereme inventory CORPUS merge-value INVENTAIRE VALEUR AUTRE`
 message-editing-no-lexicon-to-unite = il n’y a pas de lexique à réunir avec { $name }
 message-editing-name-other-lexicon = nommez au moins un autre lexique
-message-editing-say-true-of-lexicons = dites d’abord des deux ce qui est vrai : `chereme lexicon CORPUS set NOM --release TEXTE`
+message-editing-say-true-of-lexicons = donnez d’abord aux deux ce qui est vrai : `chereme lexicon CORPUS set NAME --language CODE` ; --release, --terms et --citation fixent les autres
 message-editing-entry-of-another-row = les deux ont une entrée { $gloss } d’une autre ligne : celle de { $from } est ici { $label }
 message-editing-entry-coded-differently = l’entrée { $gloss } est codée autrement dans { $from } : les deux codages sont gardés

@@ -3,6 +3,8 @@
 window-export-title = Exportation
 window-export-what = Quoi
 window-export-format = Format
+window-export-skeleton = Squelette
+window-export-captured = celui de la capture
 window-export-where = Vers où
 window-export-replace = Remplacer ce qui s’y trouve
 window-export-write = Écrire

@@ -1,10 +1,10 @@
 //! `chereme export`: writes movement, tiers, tables or the whole database as files.
 
-use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::{fs, io};
 
-use anyhow::Result;
-use chereme_corpus::{Corpus, CorpusError, ExportOptions, ExportWhat, SearchOptions};
+use anyhow::{Context, Result};
+use chereme_corpus::{Corpus, CorpusError, ExportOptions, ExportWhat, MovementForm, SearchOptions};
 
 use crate::args::CommandLine;
 use crate::output::{CommandOutput, with_progress_bar, write_to_stderr};
@@ -39,6 +39,7 @@ Examples:
   chereme export mine.chereme recording:3 --to take.bvh
   chereme export mine.chereme 'query:right.configuration=U' --to takes/ --format bvh
   chereme export mine.chereme ESCARGOT LIMACE token:41 --to takes/ --format bvh
+  chereme export mine.chereme ESCARGOT --to snail.bvh --skeleton mixamo --fps 30
   chereme export mine.chereme all --to mine.frames.parquet
   chereme export mine.chereme all --to - --format csv | head")]
 pub(crate) struct ExportArgs {
@@ -63,6 +64,16 @@ pub(crate) struct ExportArgs {
     /// For whom it is written: what people did not agree to show them is left out and listed
     #[arg(long = "for", value_name = "AUDIENCE", default_value = "me", value_parser = ["me", "research", "public"])]
     audience: String,
+    /// In .bvh and .glb: move the bones of these avatars instead of the captured ones: mixamo, rigify, smplx, ue5, unity,
+    /// vrm, or a file with a table of bones
+    #[arg(long, value_name = "NAME|FILE")]
+    skeleton: Option<String>,
+    /// The frames a second of .bvh, .glb and .vrma, such as 30; without it, those of the capture
+    #[arg(long, value_name = "N")]
+    fps: Option<f64>,
+    /// In .bvh, .glb and .vrma: keep the hips above the place where they are first
+    #[arg(long)]
+    in_place: bool,
     /// With all and no format: copy the history, too, with everything that was deleted or changed
     #[arg(long)]
     with_history: bool,
@@ -77,6 +88,7 @@ pub(super) fn run(cli: &CommandLine, args: &ExportArgs, output: &mut CommandOutp
         spreadsheet_safe: args.spreadsheet_safe,
         audience: args.audience.parse()?,
         with_history: args.with_history,
+        movement: read_movement_form(args)?,
     };
     if streams::is_standard(&args.to) {
         streams::not_with_json(output.is_json())?;
@@ -122,6 +134,20 @@ pub(super) fn run(cli: &CommandLine, args: &ExportArgs, output: &mut CommandOutp
         output.write_note(note)?;
     }
     output.set_json_document(report)
+}
+
+/// Reads the form of movement; an avatar that is not known by name is a file with a table of bones.
+fn read_movement_form(args: &ExportArgs) -> Result<MovementForm> {
+    let avatar = args.skeleton.as_deref();
+    let table = match avatar.map(Path::new).filter(|path| path.is_file()) {
+        Some(path) => Some(fs::read_to_string(path).with_context(|| path.display().to_string())?),
+        None => None,
+    };
+    Ok(MovementForm::read_movement_form(
+        table.as_deref().or(avatar),
+        args.fps,
+        args.in_place,
+    )?)
 }
 
 /// Reads what to export: all, addresses, or queries.

@@ -548,6 +548,15 @@ pub(crate) fn is_opinion(connection: &Connection, annotation: i64) -> CorpusResu
     Ok(connection.prepare_cached(&sql)?.exists([annotation])?)
 }
 
+/// Returns the annotations that say something of a token which does not count.
+#[cfg(feature = "parquet")]
+pub(crate) fn opinion_annotations(connection: &Connection) -> CorpusResult<BTreeSet<i64>> {
+    let mut statement =
+        connection.prepare_cached(&format!("SELECT annotation_id FROM token_value WHERE {IS_OPINION_SQL}"))?;
+    let rows = statement.query_map([], |row| row.get(0))?;
+    Ok(rows.collect::<rusqlite::Result<_>>()?)
+}
+
 /// Returns the tokens with an opinion about a component.
 pub(crate) fn tokens_with_opinion(connection: &Connection, component: &str) -> CorpusResult<BTreeSet<i64>> {
     let sql = format!("SELECT token_id FROM token_value WHERE component = ?1 AND value IS NULL AND {IS_OPINION_SQL}");

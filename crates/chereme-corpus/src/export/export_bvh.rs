@@ -6,9 +6,11 @@ use std::ops::Range;
 
 use chereme_formats::bvh::bvh_convert;
 use chereme_formats::bvh::raw::{BvhWriteError, BvhWriter, Column, ExactDecimal, FileNumber, MotionBlock};
+use chereme_motion::Clip;
 use chereme_motion::column::ColumnNumbers;
 use rusqlite::Connection;
 
+use super::movement_form::MovementForm;
 use crate::address::RecordingStretch;
 use crate::error::{CorpusError, CorpusResult};
 use crate::movement::{BLOCK_FRAMES, ChannelGroup, MotionTrack};
@@ -41,7 +43,7 @@ pub(crate) fn write_bvh_stretch(
     let track = MotionTrack::open_motion_track(connection, stretch.recording.id)?;
     let frames = track.stretch_frames(stretch);
     if !track.is_of_bvh() {
-        return write_converted(connection, &track, frames, out);
+        return write_converted_clip(&track.raw_clip(connection, frames)?, out);
     }
     let time = track.frame_time()?;
     let motion = (time.is_some() || !frames.is_empty()).then_some((time.as_ref(), frames.len() as u64));
@@ -75,20 +77,32 @@ pub(crate) fn write_bvh_stretch(
 /// The number of decimals for numbers that did not come from a BVH file.
 const DEFAULT_BVH_DECIMALS: u8 = 6;
 
-/// Writes movement from another format, with rotations as Euler angles.
-fn write_converted(
+/// Writes the movement of a stretch in another form than that of the capture, in centimetres, and returns the number of
+/// frames.
+///
+/// # Errors
+/// Fails if the recording has no movement, the body does not fit, or writing fails.
+pub(super) fn write_shaped_bvh(
     connection: &Connection,
-    track: &MotionTrack,
-    frames: Range<usize>,
+    stretch: &RecordingStretch,
+    form: &MovementForm,
     out: &mut dyn Write,
+    notes: &mut Vec<String>,
 ) -> CorpusResult<usize> {
-    let clip = track.raw_clip(connection, frames)?;
+    let track = MotionTrack::open_motion_track(connection, stretch.recording.id)?;
+    let movement = form.load_shaped_movement(connection, &track, track.stretch_frames(stretch), notes)?;
+    notes.push("places are in centimetres, Y up, and the signer faces +Z".to_owned());
+    write_converted_clip(&movement.clip_in_centimetres()?, out)
+}
+
+/// Writes movement from another format, with rotations as Euler angles.
+fn write_converted_clip(clip: &Clip, out: &mut dyn Write) -> CorpusResult<usize> {
     // A joint that moves needs channels for its place, which the rest of a skeleton does not have.
     let hierarchy = bvh_convert::widen_hierarchy(
         &bvh_convert::hierarchy_from_skeleton(clip.clip_skeleton(), DEFAULT_BVH_DECIMALS),
-        &clip,
+        clip,
     );
-    let columns = bvh_convert::columns_from_clip(&clip, &hierarchy, DEFAULT_BVH_DECIMALS)
+    let columns = bvh_convert::columns_from_clip(clip, &hierarchy, DEFAULT_BVH_DECIMALS)
         .map_err(|error| CorpusError::from_wrong_message(error.to_string()))?;
     let fault = |error: BvhWriteError| CorpusError::from_wrong_message(format!("the BVH cannot be written: {error}"));
     let time = ExactDecimal::from_rounded_value(clip.clip_frame_rate().frame_time(), 9).map(FileNumber::from);

@@ -87,7 +87,7 @@ impl ExportGate {
     pub(super) fn withheld_from(
         &self,
         recording: i64,
-        format: SingleFileFormat,
+        format: SingleFileFormat<'_>,
         named: bool,
     ) -> Option<WithheldOutput> {
         let mut kinds = format.shown_kinds().to_vec();
@@ -103,7 +103,7 @@ impl ExportGate {
         &self,
         connection: &Connection,
         what: &ExportWhat,
-        format: SingleFileFormat,
+        format: SingleFileFormat<'_>,
     ) -> CorpusResult<PassedExport> {
         let mut passed = PassedExport {
             what: what.clone(),
@@ -159,7 +159,7 @@ impl ExportGate {
     }
 
     /// Returns all recordings that may be written in a format.
-    fn pass_all_recordings(&self, connection: &Connection, format: SingleFileFormat) -> CorpusResult<PassedExport> {
+    fn pass_all_recordings(&self, connection: &Connection, format: SingleFileFormat<'_>) -> CorpusResult<PassedExport> {
         let (mut addresses, mut withheld) = (Vec::new(), Vec::new());
         for row in stored_recordings::load_recording_rows(connection)? {
             match self.withheld_from(row.id, format, true) {
@@ -221,12 +221,12 @@ fn recordings_shown_by(connection: &Connection, what: &ExportWhat) -> CorpusResu
     })
 }
 
-impl SingleFileFormat {
+impl SingleFileFormat<'_> {
     /// Returns what a file of the format shows of people.
     fn shown_kinds(self) -> &'static [ConsentKind] {
         match self {
-            Self::Bvh | Self::Points(_) | Self::Markers(_) | Self::LiveLink => &[ConsentKind::Movement],
-            Self::Glb(_) | Self::Vrma | Self::Curves(_) | Self::Parquet(LongTable::Frames) => {
+            Self::Bvh(_) | Self::Points(_) | Self::Markers(_) | Self::LiveLink => &[ConsentKind::Movement],
+            Self::Glb(..) | Self::Vrma(_) | Self::Curves(_) | Self::Parquet(LongTable::Frames) => {
                 &[ConsentKind::Movement, ConsentKind::Annotation]
             }
             Self::Table(_)

@@ -8,17 +8,18 @@ use chereme_formats::faces::FaceSystem;
 use chereme_formats::gltf::vrma::{self, AvatarFace, ExpressionTrack};
 use chereme_formats::table::annotations;
 use chereme_formats::{TooFar, c3d, gltf, textgrid, trc, xra};
-use chereme_motion::{Clip, MarkerSpace, RecordingInstant, TimeSpan};
+use chereme_motion::{MarkerSpace, RecordingInstant, TimeSpan};
 use chereme_sign::ErrorRemedy;
 use rusqlite::Connection;
 
+use super::movement_form::{MovementForm, ShapedMovement};
 use super::{ExportGate, glb_figure};
 use crate::address::RecordingStretch;
 use crate::curves::face_captured;
 use crate::db::stored_recordings::RecordingRow;
 use crate::db::{stored_tiers, stored_tracks};
 use crate::error::{CorpusError, CorpusResult};
-use crate::movement::{ChannelGroup, MotionTrack};
+use crate::movement::MotionTrack;
 use crate::track::{self, TrackKind};
 
 /// The look of the movement in a GLB.
@@ -36,23 +37,21 @@ pub(super) enum GlbLook {
 pub(super) fn write_glb_stretch(
     connection: &Connection,
     stretch: &RecordingStretch,
-    look: GlbLook,
+    (look, form): (GlbLook, &MovementForm),
     gate: &ExportGate,
     out: &mut dyn Write,
+    notes: &mut Vec<String>,
 ) -> CorpusResult<usize> {
     let track = MotionTrack::open_motion_track(connection, stretch.recording.id)?;
     let frames = track.stretch_frames(stretch);
-    let clip = track.read_motion_clip(connection, frames.clone(), &ChannelGroup::ALL_CHANNEL_GROUPS)?;
-    let span = on_the_clock(&track, &clip, &frames);
-    let about = describe_gltf_stretch(connection, stretch, gate, span)?;
+    let movement = form.load_shaped_movement(connection, &track, frames.clone(), notes)?;
+    let about = describe_gltf_stretch(connection, stretch, gate, on_the_clock(&track, &frames))?;
+    let ShapedMovement { clip, anatomy, curves } = &movement;
     let figure = match look {
-        GlbLook::Person => {
-            let curves = crate::curves::of_track(connection, &track, frames)?;
-            glb_figure::visible_figure(&clip, &track.track_anatomy(connection)?, &curves)
-        }
+        GlbLook::Person => glb_figure::visible_figure(clip, anatomy, curves),
         GlbLook::Bones => None,
     };
-    let bytes = gltf::write_glb_with_figure(&clip, &about, figure.as_ref()).map_err(|error| too_far(&error))?;
+    let bytes = gltf::write_glb_with_figure(clip, &about, figure.as_ref()).map_err(|error| too_far(&error))?;
     write_export_bytes(out, &bytes)?;
     Ok(about.notes.len())
 }
@@ -77,19 +76,18 @@ fn describe_gltf_stretch(
 }
 
 /// Returns the error for a place that does not fit into the file.
-fn too_far(error: &TooFar) -> CorpusError {
+pub(super) fn too_far(error: &TooFar) -> CorpusError {
     CorpusError::from_wrong_message(error.to_string()).with_advice(ErrorRemedy::command_remedy(
         "import it again with the right --unit, or write .bvh, which holds any number",
     ))
 }
 
 /// Returns the span of frames of a track on the clock of its recording.
-fn on_the_clock(track: &MotionTrack, clip: &Clip, frames: &Range<usize>) -> TimeSpan {
-    let clip_span = TimeSpan::span_between(
-        clip.clip_frame_rate().frame_start_instant(frames.start),
-        clip.clip_frame_rate().frame_start_instant(frames.end),
-    );
-    clip_span.shifted_span(track.row.offset_us)
+fn on_the_clock(track: &MotionTrack, frames: &Range<usize>) -> TimeSpan {
+    track
+        .rate
+        .frame_range_span(frames.clone())
+        .shifted_span(track.row.offset_us)
 }
 
 /// Writes the movement of a stretch as VRMA, for avatars. Its face gives the presets of VRM and the gaze; each
@@ -100,6 +98,7 @@ fn on_the_clock(track: &MotionTrack, clip: &Clip, frames: &Range<usize>) -> Time
 pub(super) fn write_vrma_stretch(
     connection: &Connection,
     stretch: &RecordingStretch,
+    form: &MovementForm,
     gate: &ExportGate,
     out: &mut dyn Write,
     notes_of_file: &mut Vec<String>,
@@ -115,10 +114,9 @@ pub(super) fn write_vrma_stretch(
                 .into_lacking_content(),
         );
     }
-    let clip = track.read_motion_clip(connection, frames.clone(), &ChannelGroup::ALL_CHANNEL_GROUPS)?;
-    let anatomy = track.track_anatomy(connection)?;
-    let span = on_the_clock(&track, &clip, &frames);
-    let curves = crate::curves::of_track(connection, &track, frames)?;
+    let span = on_the_clock(&track, &frames);
+    let movement = form.load_shaped_movement(connection, &track, frames, notes_of_file)?;
+    let ShapedMovement { clip, anatomy, curves } = movement;
     let mut face = AvatarFace::avatar_face_from_faces(&chereme_compose::faces_from_curves(&curves));
     let has = |face: &AvatarFace, name: &str| face.expressions.iter().any(|expression| expression.name == name);
     for curve in curves {

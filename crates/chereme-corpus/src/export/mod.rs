@@ -15,8 +15,11 @@ mod foreign;
 mod glb_figure;
 #[cfg(test)]
 mod mixed_tests;
+mod movement_form;
 #[cfg(feature = "parquet")]
 mod parquet;
+#[cfg(test)]
+mod rig_tests;
 mod several;
 #[cfg(test)]
 mod tests;
@@ -49,6 +52,7 @@ use crate::values;
 use crate::words::format_noun_count;
 use export_gate::ExportGate;
 use export_long::LongTable;
+pub use movement_form::MovementForm;
 
 /// The part of the corpus to export.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -66,7 +70,7 @@ pub enum ExportWhat {
 }
 
 /// Options for an export.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct ExportOptions {
     /// Whether an existing file is replaced.
     pub force: bool,
@@ -79,6 +83,8 @@ pub struct ExportOptions {
     pub audience: OutputAudience,
     /// Whether a copy of everything has the history, with all that was deleted or changed.
     pub with_history: bool,
+    /// The form of movement in BVH, GLB and VRMA.
+    pub movement: MovementForm,
 }
 
 impl From<&str> for ExportOptions {
@@ -168,15 +174,11 @@ impl Corpus {
         let extension = to.extension().map(|text| text.to_string_lossy().to_lowercase());
         let mut report = ExportReport::default();
         let named_form = options.format.as_deref().map(find_export_format).transpose()?;
-        let form = match named_form {
-            Some((format, extension)) => Some((format.fit_for(options)?, extension)),
-            None => None,
-        };
         let gate = ExportGate::open_export_gate(connection, what, options.audience)?;
         match (extension.as_deref(), what) {
-            (None, _) if let Some((format, extension)) = form => {
+            (None, _) if let Some((format, extension)) = named_form => {
                 let reading = rows::begin_reading(connection)?;
-                let extension = extension.as_str();
+                let (format, extension) = (format.fit_for(options)?, extension.as_str());
                 let kind = several::FolderFileKind { format, extension };
                 report = several::write_export_folder(&reading, what, kind, to, options, &gate, progress)?;
             }
@@ -198,7 +200,7 @@ impl Corpus {
                 let inner = inner_extension(to);
                 let by_name = SingleFileFormat::from_export_extension(extension)
                     .map(|format| format.select_format_variant(&inner));
-                let format = match form {
+                let format = match named_form {
                     // A name that contradicts the format would mislead whoever opens the file later.
                     Some((format, named)) if by_name.is_some_and(|named_format| named_format != format) => {
                         return Err(CorpusError::from_wrong_message(format!(
@@ -254,7 +256,7 @@ impl Corpus {
 }
 
 /// Returns the format with this extension, and the extension.
-fn find_export_format(format: &str) -> CorpusResult<(SingleFileFormat, String)> {
+fn find_export_format<'o>(format: &str) -> CorpusResult<(SingleFileFormat<'o>, String)> {
     let extension = format.trim().trim_start_matches('.').to_lowercase();
     let (inner, last) = extension.split_once('.').unwrap_or(("", &extension));
     let inner_format = SingleFileFormat::from_export_extension(last).map(|format| format.select_format_variant(inner));
@@ -289,8 +291,8 @@ fn unknown_format_error(to: &Path, extension: &str) -> CorpusError {
 }
 
 /// A format of single files.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum SingleFileFormat {
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum SingleFileFormat<'o> {
     /// A table of tokens or annotations.
     Table(TableForm),
     /// A table of curves with this separator.
@@ -298,11 +300,11 @@ enum SingleFileFormat {
     /// A captured face for programs that read Live Link Face.
     LiveLink,
     Eaf,
-    Bvh,
+    Bvh(&'o MovementForm),
     Json,
-    Glb(foreign::GlbLook),
+    Glb(foreign::GlbLook, &'o MovementForm),
     Parquet(LongTable),
-    Vrma,
+    Vrma(&'o MovementForm),
     /// Markers as a file of their own.
     Points(foreign::MarkerFileFormat),
     /// Markers as a table with this separator.
@@ -314,17 +316,18 @@ enum SingleFileFormat {
     Notation(export_notation::NotationFileFormat),
 }
 
-impl SingleFileFormat {
+impl<'o> SingleFileFormat<'o> {
     fn from_export_extension(extension: &str) -> Option<Self> {
+        let as_captured = const { &MovementForm::AS_CAPTURED };
         match extension {
             "csv" => Some(Self::Table(TableForm::new(b','))),
             "tsv" => Some(Self::Table(TableForm::new(b'\t'))),
             "eaf" => Some(Self::Eaf),
-            "bvh" => Some(Self::Bvh),
+            "bvh" => Some(Self::Bvh(as_captured)),
             "json" => Some(Self::Json),
-            "glb" => Some(Self::Glb(foreign::GlbLook::Person)),
+            "glb" => Some(Self::Glb(foreign::GlbLook::Person, as_captured)),
             "parquet" => Some(Self::Parquet(LongTable::Tokens)),
-            "vrma" => Some(Self::Vrma),
+            "vrma" => Some(Self::Vrma(as_captured)),
             "c3d" => Some(Self::Points(foreign::MarkerFileFormat::C3d)),
             "trc" => Some(Self::Points(foreign::MarkerFileFormat::Trc)),
             "textgrid" => Some(Self::TextGrid),
@@ -339,7 +342,8 @@ impl SingleFileFormat {
     }
 
     /// Returns the format with the options that change what it writes.
-    fn fit_for(self, options: &ExportOptions) -> CorpusResult<Self> {
+    fn fit_for(self, options: &'o ExportOptions) -> CorpusResult<Self> {
+        let movement = &options.movement;
         match self {
             Self::Table(form) => Ok(Self::Table(TableForm {
                 is_spreadsheet_safe: options.spreadsheet_safe,
@@ -349,6 +353,17 @@ impl SingleFileFormat {
                 "only a table of tokens or annotations is written for spreadsheets",
             )
             .with_advice("end the name in .csv or .tsv, or leave --spreadsheet-safe out")),
+            Self::Vrma(_) if movement.rig.is_some() => Err(CorpusError::from_wrong_message(
+                "a VRMA file has the bones of VRM, which every avatar of VRM has",
+            )
+            .with_advice("leave --skeleton out, or end the name in .bvh or .glb")),
+            Self::Bvh(_) => Ok(Self::Bvh(movement)),
+            Self::Glb(look, _) => Ok(Self::Glb(look, movement)),
+            Self::Vrma(_) => Ok(Self::Vrma(movement)),
+            _ if *movement != MovementForm::AS_CAPTURED => Err(CorpusError::from_wrong_message(
+                "only movement is written with another skeleton, frame rate or place",
+            )
+            .with_advice("end the name in .bvh, .glb or .vrma, or leave --skeleton, --fps and --in-place out")),
             other => Ok(other),
         }
     }
@@ -360,7 +375,7 @@ impl SingleFileFormat {
             (Self::Table(form), "livelink") if form.delimiter == b',' => Self::LiveLink,
             (Self::Table(form), "markers") => Self::Markers(form.delimiter),
             (Self::Notation(export_notation::NotationFileFormat::Text), "elan") => Self::ElanTable,
-            (Self::Glb(_), "bones") => Self::Glb(foreign::GlbLook::Bones),
+            (Self::Glb(_, form), "bones") => Self::Glb(foreign::GlbLook::Bones, form),
             (Self::Parquet(_), inner) => Self::Parquet(LongTable::from_inner_extension(inner)),
             (other, _) => other,
         }
@@ -391,7 +406,7 @@ const GLB_MARKERS_NOTE: &str = "annotations become markers of Blender's timeline
 fn write_file(
     connection: &Connection,
     what: &ExportWhat,
-    format: SingleFileFormat,
+    format: SingleFileFormat<'_>,
     out: &mut dyn Write,
     notes: &mut Vec<String>,
     gate: &ExportGate,
@@ -443,13 +458,17 @@ fn write_file(
             }
             export_eaf::write_recording_eaf(connection, &stretch.recording, out)
         }
-        (SingleFileFormat::Bvh, _) => {
+        (SingleFileFormat::Bvh(form), _) => {
             let stretch = stretch()?;
             notes.extend(export_bvh::late_start(connection, &stretch)?);
-            export_bvh::write_bvh_stretch(connection, &stretch, out, progress).map(|_| ())
+            match *form == MovementForm::AS_CAPTURED {
+                true => export_bvh::write_bvh_stretch(connection, &stretch, out, progress)?,
+                false => export_bvh::write_shaped_bvh(connection, &stretch, form, out, notes)?,
+            };
+            Ok(())
         }
-        (SingleFileFormat::Glb(look), _) => {
-            if foreign::write_glb_stretch(connection, &stretch()?, look, gate, out)? > 0 {
+        (SingleFileFormat::Glb(look, form), _) => {
+            if foreign::write_glb_stretch(connection, &stretch()?, (look, form), gate, out, notes)? > 0 {
                 notes.push(GLB_MARKERS_NOTE.to_owned());
             }
             Ok(())
@@ -457,7 +476,9 @@ fn write_file(
         (SingleFileFormat::Parquet(long), _) => {
             export_long::write_long_table(connection, what, long, gate, out, notes, progress)
         }
-        (SingleFileFormat::Vrma, _) => foreign::write_vrma_stretch(connection, &stretch()?, gate, out, notes),
+        (SingleFileFormat::Vrma(form), _) => {
+            foreign::write_vrma_stretch(connection, &stretch()?, form, gate, out, notes)
+        }
         (SingleFileFormat::Points(form), _) => foreign::write_marker_file(connection, &stretch()?, form, out, notes),
         (SingleFileFormat::Markers(delimiter), _) => {
             foreign::write_number_table(connection, &stretch()?, TrackKind::Markers, delimiter, out, notes)
@@ -509,7 +530,7 @@ fn damaged_rows(connection: &Connection) -> CorpusResult<Vec<String>> {
 }
 
 /// Fails if rows that are written are not as they were stored.
-fn verify(connection: &Connection, what: &ExportWhat, format: SingleFileFormat) -> CorpusResult<()> {
+fn verify(connection: &Connection, what: &ExportWhat, format: SingleFileFormat<'_>) -> CorpusResult<()> {
     let is_of_tokens = matches!(
         format,
         SingleFileFormat::Table(_)

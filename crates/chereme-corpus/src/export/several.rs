@@ -42,7 +42,7 @@ enum FolderPartContent {
 #[derive(Clone, Copy)]
 pub(super) struct FolderFileKind<'a> {
     /// The format.
-    pub(super) format: SingleFileFormat,
+    pub(super) format: SingleFileFormat<'a>,
     /// The ending of their names.
     pub(super) extension: &'a str,
 }
@@ -149,7 +149,7 @@ fn fill_export_folder(
         }
         report.notes.push(left_out(&report.left_out, parts.len(), extension));
     }
-    if matches!(format, SingleFileFormat::Glb(_)) {
+    if matches!(format, SingleFileFormat::Glb(..)) {
         let script = script(&to.join("annotations_to_markers.py"))?;
         written.insert(0, script);
         let note = "annotations_to_markers.py turns the annotations into markers of Blender's timeline";
@@ -246,7 +246,7 @@ impl FolderPart {
     fn write_folder_part(
         &self,
         connection: &Connection,
-        format: SingleFileFormat,
+        format: SingleFileFormat<'_>,
         out: &mut dyn Write,
         notes: &mut Vec<String>,
         gate: &ExportGate,
@@ -266,7 +266,7 @@ impl FolderPart {
     }
 
     /// Fails if the table of a recording would have no rows.
-    fn holds_rows(&self, connection: &Connection, what: &ExportWhat, format: SingleFileFormat) -> CorpusResult<()> {
+    fn holds_rows(&self, connection: &Connection, what: &ExportWhat, format: SingleFileFormat<'_>) -> CorpusResult<()> {
         let ExportWhat::Address(CorpusAddress::Recording(RowName::Number(id))) = what else {
             return Ok(());
         };
@@ -297,7 +297,7 @@ impl FolderPart {
 fn list_folder_parts(
     connection: &Connection,
     what: &ExportWhat,
-    format: SingleFileFormat,
+    format: SingleFileFormat<'_>,
 ) -> CorpusResult<Vec<FolderPart>> {
     let mut all = Vec::new();
     match what {
@@ -342,7 +342,7 @@ fn list_folder_parts(
 
 /// Returns the files of the tokens that are in no recording, in formats that hold those: one table for all, and a
 /// notation for each.
-fn list_lexicon_parts(connection: &Connection, format: SingleFileFormat) -> CorpusResult<Vec<FolderPart>> {
+fn list_lexicon_parts(connection: &Connection, format: SingleFileFormat<'_>) -> CorpusResult<Vec<FolderPart>> {
     let is_table = matches!(
         format,
         SingleFileFormat::Table(_) | SingleFileFormat::Parquet(LongTable::Tokens | LongTable::Components)
@@ -396,7 +396,7 @@ fn languages(connection: &Connection, part: FolderPart) -> CorpusResult<Vec<Fold
     Ok(groups.into_iter().map(of).collect())
 }
 
-fn folder_part_of_token(connection: &Connection, id: i64, format: SingleFileFormat) -> CorpusResult<FolderPart> {
+fn folder_part_of_token(connection: &Connection, id: i64, format: SingleFileFormat<'_>) -> CorpusResult<FolderPart> {
     let row = signs::load_token_row(connection, id)?;
     if let Some(recording) = row.recording_id.filter(|_| format.is_of_tiers()) {
         let name = row.recording.unwrap_or_default();
@@ -411,7 +411,7 @@ fn folder_part_of_token(connection: &Connection, id: i64, format: SingleFileForm
 fn folder_part_at_address(
     connection: &Connection,
     address: &CorpusAddress,
-    format: SingleFileFormat,
+    format: SingleFileFormat<'_>,
 ) -> CorpusResult<FolderPart> {
     if let CorpusAddress::Recording(name) = address {
         let row = address::find_recording_by_name(connection, name)?;

@@ -3,11 +3,14 @@
 //! The file's rest pose is the T-pose without rotations, and a frame's rotations count from there, so that every avatar
 //! can use them. Source: the VRM specification of the VRM Consortium.
 
-use chereme_motion::glam::{DQuat, DVec3};
-use chereme_motion::{BodyAnatomy, BodyPart, BodySide, Clip, HandFinger, ModelPose, Skeleton};
+use std::sync::LazyLock;
+
+use chereme_data::schema_text;
+use chereme_motion::{BodyAnatomy, Clip, Skeleton};
 use serde_json::{Map, Value, json};
 
-use crate::reach::{self, TooFar};
+use crate::avatar_rig::{AvatarRig, RigError, RiggedClip};
+use crate::reach::TooFar;
 use crate::tracks::unique_track_names;
 
 use super::avatar_face;
@@ -38,6 +41,10 @@ const VRM_PRESET_NAMES: [&str; 14] = [
     "neutral",
 ];
 
+/// The bones of VRM.
+static VRM_RIG: LazyLock<AvatarRig> =
+    LazyLock::new(|| AvatarRig::read_rig_table(schema_text("skeletons/vrm.json")).expect("a table of bones"));
+
 /// A reason why a clip cannot be written as VRMA.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum VrmaWriteError {
@@ -47,6 +54,15 @@ pub enum VrmaWriteError {
     /// A place does not fit into 32-bit numbers.
     #[error(transparent)]
     TooFar(#[from] TooFar),
+}
+
+impl From<RigError> for VrmaWriteError {
+    fn from(error: RigError) -> Self {
+        match error {
+            RigError::NoPart(_) => Self::NoAvatar(error.to_string()),
+            RigError::TooFar(error) => Self::TooFar(error),
+        }
+    }
 }
 
 /// Returns a clip in metres of model space as VRMA.
@@ -66,25 +82,29 @@ pub fn write_vrma(
     if clip.clip_frame_count() == 0 {
         return Err(VrmaWriteError::NoAvatar("the movement has no frames".to_owned()));
     }
-    let avatar = AvatarBones::find_avatar_bones(clip, anatomy)?;
-    let poses: Vec<ModelPose> = (0..clip.clip_frame_count())
-        .map(|frame| clip.model_pose(frame))
-        .collect();
-    let mut animation = VrmaAnimation::new(&avatar, clip);
-    for (at, (_, joint)) in avatar.bones.iter().enumerate() {
-        animation.add_channel(at, "rotation", &avatar.bone_rotations(&poses, at));
-        if at == avatar.hips {
-            let positions = poses.iter().map(|pose| pose.model_joint_position(*joint));
+    let rigged = VRM_RIG.put_on_rig(clip, anatomy)?;
+    let frames = clip.clip_frame_count();
+    let mut animation = VrmaAnimation::new(&rigged, clip);
+    for (at, channel) in rigged.clip.joint_channels().iter().enumerate() {
+        let turns: Vec<f32> = channel
+            .rotations
+            .iter()
+            .flat_map(|turn| to_gltf_rotation(*turn))
+            .collect();
+        animation.add_channel(at, "rotation", &turns);
+        if at == 0 {
+            let positions = (0..frames).map(|frame| rigged.clip.joint_translation(at, frame));
             let places: Vec<f32> = positions.flat_map(to_gltf_vector).collect();
             animation.add_channel(at, "translation", &places);
         }
     }
-    let human = (avatar.bones.iter().enumerate()).map(|(at, (name, _))| (name.clone(), json!({"node": at})));
+    let bones = rigged.clip.clip_skeleton().skeleton_joints().iter().enumerate();
+    let human = bones.map(|(at, bone)| (bone.name.clone(), json!({"node": at})));
     let mut extension = json!({"specVersion": "1.0", "humanoid": {"humanBones": human.collect::<Map<_, _>>()}});
-    if let Some(expressions) = animation.add_expressions(face, poses.len()) {
+    if let Some(expressions) = animation.add_expressions(face, frames) {
         extension["expressions"] = expressions;
     }
-    if face.gaze.len() == poses.len() {
+    if face.gaze.len() == frames {
         let gaze_turns = face.gaze.iter().map(|gaze| avatar_face::eye_rotation_from_gaze(*gaze));
         let turns: Vec<f32> = gaze_turns.flat_map(to_gltf_rotation).collect();
         let node = animation.add_root_node(json!({"name": "look_at"}));
@@ -94,95 +114,22 @@ pub fn write_vrma(
     Ok(animation.pack_vrma_file(&extension, clip, about))
 }
 
-/// The bones of an avatar in a skeleton, in the order of their joints.
-struct AvatarBones<'a> {
-    skeleton: &'a Skeleton,
-    rest: ModelPose,
-    /// The bones' names in VRM, and their joints.
-    bones: Vec<(String, usize)>,
-    parents: Vec<Option<usize>>,
-    hips: usize,
-    /// Raises the lowest bone of the rest pose to height 0, in metres.
-    lift: f64,
-}
-
-impl<'a> AvatarBones<'a> {
-    fn find_avatar_bones(clip: &'a Clip, anatomy: &BodyAnatomy) -> Result<Self, VrmaWriteError> {
-        let skeleton = clip.clip_skeleton();
-        let mut bones: Vec<(String, usize)> = Vec::new();
-        for (part, joint, _) in anatomy.found_parts() {
-            let is_taken = bones.iter().any(|(_, taken)| *taken == joint);
-            if let Some(name) = vrm_bone_name(part).filter(|_| !is_taken) {
-                bones.push((name, joint));
-            }
-        }
-        for needed in ["hips", "leftUpperArm", "rightUpperArm"] {
-            if !bones.iter().any(|(name, _)| name == needed) {
-                let reason = format!("the skeleton has no {needed}, which avatars need");
-                return Err(VrmaWriteError::NoAvatar(reason));
-            }
-        }
-        reach::check_clip_reach(clip)?;
-        bones.sort_by_key(|(_, joint)| *joint);
-        let rest = anatomy.clone().with_clip(clip).t_pose(skeleton);
-        let hips = bones.iter().position(|(name, _)| name == "hips").unwrap_or(0);
-        let parent = |(at, (_, joint)): (usize, &(String, usize))| {
-            let ancestor_joints = skeleton.joint_ancestors(*joint);
-            let mut above = ancestor_joints.filter(|ancestor| ancestor != joint);
-            let bone = above.find_map(|ancestor| bones.iter().position(|(_, bone)| *bone == ancestor));
-            // The hips come first in VRM: other roots hang below them.
-            bone.or((at != hips).then_some(hips))
-        };
-        let heights = bones.iter().map(|(_, joint)| rest.model_joint_position(*joint).y);
-        Ok(Self {
-            parents: bones.iter().enumerate().map(parent).collect(),
-            lift: -heights.fold(f64::INFINITY, f64::min),
-            skeleton,
-            rest,
-            bones,
-            hips,
-        })
+/// Returns the node of a bone, placed from its parent's.
+fn bone_node(rigged: &RiggedClip, source: &Skeleton, at: usize) -> Value {
+    let skeleton = rigged.clip.clip_skeleton();
+    let bone = skeleton.joint_at(at);
+    let mut node = json!({"name": bone.name, "translation": to_gltf_vector(bone.offset)});
+    if let Some((_, joint)) = rigged.joints[at] {
+        node["extras"] = json!({"name": source.joint_at(joint).name});
     }
-
-    /// Returns the node of a bone, placed from its parent's.
-    fn bone_node(&self, at: usize) -> Value {
-        let (name, joint) = &self.bones[at];
-        let place = |at: usize| self.rest.model_joint_position(self.bones[at].1) + DVec3::Y * self.lift;
-        let from = self.parents[at].map_or(DVec3::ZERO, place);
-        let is_child = |child: &usize| self.parents[*child] == Some(at);
-        let children: Vec<usize> = (0..self.bones.len()).filter(is_child).collect();
-        let mut node = json!({"name": name, "translation": to_gltf_vector(place(at) - from),
-            "extras": {"name": self.skeleton.joint_at(*joint).name}});
-        if let Some(tip) = self.skeleton.joint_at(*joint).tip {
-            node["extras"]["tip"] = json!(to_gltf_vector(self.rest.model_joint_rotation(*joint) * tip));
-        }
-        if !children.is_empty() {
-            node["children"] = json!(children);
-        }
-        node
+    if let Some(tip) = bone.tip {
+        node["extras"]["tip"] = json!(to_gltf_vector(tip));
     }
-
-    /// Returns the rotations of a bone from rest in each pose, relative to its parent's.
-    fn bone_rotations(&self, poses: &[ModelPose], at: usize) -> Vec<f32> {
-        let from_rest = |pose: &ModelPose, at: usize| {
-            let joint = self.bones[at].1;
-            pose.model_joint_rotation(joint) * self.rest.model_joint_rotation(joint).inverse()
-        };
-        let mut before = DQuat::IDENTITY;
-        let mut turns = Vec::with_capacity(4 * poses.len());
-        for pose in poses {
-            let above = self.parents[at].map_or(DQuat::IDENTITY, |parent| from_rest(pose, parent));
-            let bone_turn = above.inverse() * from_rest(pose, at);
-            // Players interpolate the four numbers, so that neighbours must lie in one half of their sphere.
-            before = if before.dot(bone_turn) < 0.0 {
-                -bone_turn
-            } else {
-                bone_turn
-            };
-            turns.extend(to_gltf_rotation(before));
-        }
-        turns
+    let children = skeleton.joint_children(at);
+    if !children.is_empty() {
+        node["children"] = json!(children);
     }
+    node
 }
 
 /// The nodes of a VRMA file and their movement.
@@ -197,7 +144,7 @@ struct VrmaAnimation {
 }
 
 impl VrmaAnimation {
-    fn new(avatar: &AvatarBones<'_>, clip: &Clip) -> Self {
+    fn new(rigged: &RiggedClip, clip: &Clip) -> Self {
         let frame_time = clip.clip_frame_rate().frame_time();
         let times: Vec<f32> = (0..clip.clip_frame_count())
             .map(|frame| (frame as f64 * frame_time) as f32)
@@ -206,8 +153,10 @@ impl VrmaAnimation {
         let input = parts.add_float_accessor(&times, "SCALAR", 1, None);
         parts.set_accessor_bounds(input, &times, 1);
         Self {
-            nodes: (0..avatar.bones.len()).map(|at| avatar.bone_node(at)).collect(),
-            roots: vec![avatar.hips],
+            nodes: (0..rigged.joints.len())
+                .map(|at| bone_node(rigged, clip.clip_skeleton(), at))
+                .collect(),
+            roots: vec![0],
             parts,
             input,
             samplers: Vec::new(),
@@ -307,11 +256,11 @@ const REQUIRED_VRM_BONES: [&str; 15] = [
 /// Returns the bones that VRM requires and a skeleton lacks.
 #[must_use]
 pub fn missing_vrm_bones(anatomy: &BodyAnatomy) -> Vec<&'static str> {
-    let bone_names: Vec<String> = anatomy
+    let bone_names: Vec<&str> = anatomy
         .found_parts()
-        .filter_map(|(part, ..)| vrm_bone_name(part))
+        .filter_map(|(part, ..)| VRM_RIG.part_bone(part))
         .collect();
-    let lacks = |bone: &&str| !bone_names.iter().any(|bone_name| bone_name == bone);
+    let lacks = |bone: &&str| !bone_names.contains(bone);
     REQUIRED_VRM_BONES.into_iter().filter(lacks).collect()
 }
 
@@ -319,42 +268,4 @@ pub fn missing_vrm_bones(anatomy: &BodyAnatomy) -> Vec<&'static str> {
 #[must_use]
 pub fn is_preset(name: &str) -> bool {
     VRM_PRESET_NAMES.contains(&name)
-}
-
-/// Returns the name of a part in VRM 1.0.
-fn vrm_bone_name(part: BodyPart) -> Option<String> {
-    let sided = |side: BodySide, name: &str| match side {
-        BodySide::Left => format!("left{name}"),
-        BodySide::Right => format!("right{name}"),
-    };
-    Some(match part {
-        BodyPart::Hips => "hips".to_owned(),
-        BodyPart::Spine => "spine".to_owned(),
-        BodyPart::Chest => "chest".to_owned(),
-        BodyPart::Neck => "neck".to_owned(),
-        BodyPart::Head => "head".to_owned(),
-        BodyPart::Clavicle(side) => sided(side, "Shoulder"),
-        BodyPart::UpperArm(side) => sided(side, "UpperArm"),
-        BodyPart::Forearm(side) => sided(side, "LowerArm"),
-        BodyPart::Hand(side) => sided(side, "Hand"),
-        BodyPart::Thigh(side) => sided(side, "UpperLeg"),
-        BodyPart::Shin(side) => sided(side, "LowerLeg"),
-        BodyPart::Foot(side) => sided(side, "Foot"),
-        BodyPart::Toes(side) => sided(side, "Toes"),
-        BodyPart::Thumb(side, at) => {
-            let end = ["Metacarpal", "Proximal", "Distal"].get(usize::from(at))?;
-            sided(side, &format!("Thumb{end}"))
-        }
-        BodyPart::Finger(side, finger, at) => {
-            let end = ["Proximal", "Intermediate", "Distal"].get(usize::from(at).checked_sub(1)?)?;
-            let finger = match finger {
-                HandFinger::Index => "Index",
-                HandFinger::Middle => "Middle",
-                HandFinger::Ring => "Ring",
-                HandFinger::Little => "Little",
-            };
-            sided(side, &format!("{finger}{end}"))
-        }
-        BodyPart::Jaw | BodyPart::Eye(_) => return None,
-    })
 }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use chereme_corpus::{CorpusAddress, ExportOptions, ExportReport, ExportWhat, RowName};
+use chereme_corpus::{CorpusAddress, ExportOptions, ExportReport, ExportWhat, MovementForm, RowName};
 use eframe::egui::{Button, Context, Id, Key, RichText, ScrollArea, Ui};
 
 use crate::command::{CommandOutbox, WindowCommand};
@@ -91,6 +91,8 @@ pub(crate) struct ExportWindow {
     open: bool,
     what: Option<ExportObject>,
     format: Option<&'static str>,
+    /// The avatar whose bones move in the file instead of those of the capture.
+    avatar: Option<&'static str>,
     to: String,
     /// Whether the user typed the path, so that it is not changed automatically.
     typed: bool,
@@ -205,6 +207,16 @@ impl ExportWindow {
                 ui.selectable_value(&mut self.format, format, seen.say_text(text));
             }
         });
+        if matches!(self.format, Some("bvh" | "glb")) {
+            ui.add_space(4.0);
+            ui.label(RichText::new(seen.say_text(words::SKELETON)).small());
+            ui.horizontal_wrapped(|ui| {
+                ui.selectable_value(&mut self.avatar, None, seen.say_text(words::CAPTURED));
+                for name in MovementForm::avatar_names() {
+                    ui.selectable_value(&mut self.avatar, Some(name), name);
+                }
+            });
+        }
         if before != (self.what.clone(), self.format) && (!self.typed || self.to.is_empty()) {
             let name = file_name(&what, corpus, self.format);
             let set_folder = settings.export_folder.clone();
@@ -276,10 +288,17 @@ impl ExportWindow {
         });
     }
 
+    /// Returns the chosen form of movement, where the format holds movement on any bones.
+    fn movement_form(&self) -> MovementForm {
+        let avatar = self.avatar.filter(|_| matches!(self.format, Some("bvh" | "glb")));
+        MovementForm::read_movement_form(avatar, None, false).unwrap_or_default()
+    }
+
     fn write_export(&mut self, settings: &StudioSettings, what: &ExportObject, out: &mut CommandOutbox) {
         let to = PathBuf::from(self.to.trim());
         let options = ExportOptions {
             force: self.replace,
+            movement: self.movement_form(),
             ..ExportOptions::default()
         };
         let address = |address: CorpusAddress| ExportWhat::Address(address);

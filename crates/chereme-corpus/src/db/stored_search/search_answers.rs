@@ -215,6 +215,23 @@ pub(crate) fn opinion_of_annotation(
         .optional()
 }
 
+/// Who said something, and with which confidence if that was a detector.
+#[cfg(feature = "parquet")]
+pub(crate) type ValueAuthor = (Option<String>, Option<f64>);
+
+/// Returns the annotators of the values of tokens, by annotation.
+#[cfg(feature = "parquet")]
+pub(crate) fn load_value_authors(connection: &Connection, tokens: &[i64]) -> CorpusResult<BTreeMap<i64, ValueAuthor>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT a.id, t.annotator, a.confidence FROM token_value v JOIN annotation a ON a.id = v.annotation_id
+         JOIN tier t ON t.id = a.tier_id WHERE v.token_id IN (SELECT value FROM json_each(?1))",
+    )?;
+    let rows = statement.query_map([crate::db::signs::json_list(tokens)], |row| {
+        Ok((row.get(0)?, (row.get(1)?, row.get(2)?)))
+    })?;
+    Ok(rows.collect::<rusqlite::Result<_>>()?)
+}
+
 /// Calls `take` with the opinions about a token, each with its field and its annotation.
 pub(crate) fn visit_token_opinions(
     connection: &Connection,

@@ -21,8 +21,9 @@ use crate::address::RecordingStretch;
 use crate::consent::ConsentAudience;
 use crate::db::signs;
 use crate::db::stored_attributes;
-use crate::db::stored_columns::{ValueState, phase_name, phase_place};
+use crate::db::stored_columns::{AnnotationOrigin, ValueState, phase_name, phase_place};
 use crate::db::stored_recordings;
+use crate::db::stored_search::search_answers::{self, OpinionStanding};
 use crate::db::stored_tiers::{self, AnnotationRow, TierRow};
 use crate::error::{CorpusError, CorpusResult};
 use crate::hands::usable_take;
@@ -44,12 +45,13 @@ fn describe_long_table(long: LongTable) -> String {
         ),
         LongTable::Components => (
             "components",
-            "a value of a token a row; state is value, not-applicable or unclear",
+            "a value of a token that counts a row; state is value, not-applicable or unclear; by is the annotator, confidence \
+             that of a detector whose proposal was accepted; proposals and values in dispute are rows of annotations only",
         ),
         LongTable::Annotations => (
             "annotations",
             "an annotation a row; start_s and end_s are seconds of the recording; state is value, unset, \
-             not-applicable or unclear",
+             not-applicable or unclear; standing is coded, proposed or disputed, the last two do not count",
         ),
         LongTable::Frames => (
             "frames",
@@ -178,21 +180,25 @@ pub(super) fn write_component_parquet(
         "phase",
         "state",
         "value",
+        "by",
     ];
     let empty: ParquetTable = ["token", "position", "annotation", "homonym"]
         .map(|name| ParquetColumn::new(name, ParquetCells::Integer(Vec::new())))
         .into_iter()
         .chain(texts.map(|name| ParquetColumn::new(name, ParquetCells::Text(Vec::new()))))
+        .chain([ParquetColumn::new("confidence", ParquetCells::Double(Vec::new()))])
         .collect();
     let mut file = ParquetFileWriter::new(&empty, &describe_long_table(LongTable::Components), out)?;
     for (part, ids) in tokens.chunks(signs::MAX_ROWS_PER_QUERY).enumerate() {
         let mut table = empty.clone();
         let rows = signs::load_token_rows(connection, ids)?;
         let values = signs::values_of(connection, ids)?;
+        let authors = search_answers::load_value_authors(connection, ids)?;
         for id in ids {
             let Some(token) = rows.get(id) else { continue };
             for value in values.get(id).map_or(&[][..], Vec::as_slice) {
                 let place = phase_place(value.phase);
+                let author = value.annotation_id.and_then(|annotation| authors.get(&annotation));
                 let numbers = [Some(*id), Some(place), value.annotation_id, token.homonym];
                 let texts = [
                     Some(token.plain_gloss()),
@@ -204,6 +210,7 @@ pub(super) fn write_component_parquet(
                     value.phase.map(phase_name),
                     Some(value.state.value_state_name()),
                     value.value.as_deref(),
+                    author.and_then(|author| author.0.as_deref()),
                 ];
                 let (left, right) = table.split_at_mut(numbers.len());
                 for (column, number) in left.iter_mut().zip(numbers) {
@@ -211,6 +218,9 @@ pub(super) fn write_component_parquet(
                 }
                 for (column, text) in right.iter_mut().zip(texts) {
                     column.cells.push_text(text);
+                }
+                if let Some(column) = right.last_mut() {
+                    column.cells.push_double(author.and_then(|author| author.1));
                 }
             }
         }
@@ -242,6 +252,7 @@ pub(super) fn write_annotation_parquet(
     let mut file = ParquetFileWriter::new(&annotations_table(), &describe_long_table(LongTable::Annotations), out)?;
     // An annotation that two tokens share is written as one row.
     let mut written = BTreeSet::new();
+    let opinions = signs::opinion_annotations(connection)?;
     for (done, stretch) in stretches.iter().enumerate() {
         let mut table = annotations_table();
         for tier in stored_tiers::load_tier_rows(connection, stretch.recording.id)? {
@@ -252,7 +263,7 @@ pub(super) fn write_annotation_parquet(
                 );
                 let inside = stretch.token.is_none() || (row.start_us < end && start < row.end_us);
                 if inside && written.insert(row.id) {
-                    push_annotation_cells(&mut table, stretch, &tier, &row);
+                    push_annotation_cells(&mut table, stretch, &tier, &row, opinions.contains(&row.id));
                 }
             }
         }
@@ -283,11 +294,18 @@ fn annotations_table() -> ParquetTable {
     let double_names = ["start_s", "end_s", "confidence"];
     let doubles = double_names.map(|name| ParquetColumn::new(name, ParquetCells::Double(Vec::new())));
     let mut table: ParquetTable = texts.into_iter().chain(integers).chain(doubles).collect();
-    table.push(ParquetColumn::new("origin", ParquetCells::Text(Vec::new())));
+    let last_names = ["origin", "standing"];
+    table.extend(last_names.map(|name| ParquetColumn::new(name, ParquetCells::Text(Vec::new()))));
     table
 }
 
-fn push_annotation_cells(table: &mut ParquetTable, stretch: &RecordingStretch, tier: &TierRow, row: &AnnotationRow) {
+fn push_annotation_cells(
+    table: &mut ParquetTable,
+    stretch: &RecordingStretch,
+    tier: &TierRow,
+    row: &AnnotationRow,
+    is_opinion: bool,
+) {
     let value = Some(row.value.as_str()).filter(|_| row.state == ValueState::Value);
     let (component, feature) = tier.role.role_component().unzip();
     let seconds = |micros: i64| Some(micros as f64 / 1e6);
@@ -316,8 +334,13 @@ fn push_annotation_cells(table: &mut ParquetTable, stretch: &RecordingStretch, t
     for (number, cells) in doubles.into_iter().zip(columns.by_ref()) {
         cells.push_double(number);
     }
-    if let Some(cells) = columns.next() {
-        cells.push_text(Some(row.origin.annotation_origin_name()));
+    let standing = match (row.origin, is_opinion) {
+        (AnnotationOrigin::Detector, _) => OpinionStanding::Proposed.standing_name(),
+        (_, true) => OpinionStanding::Disputed.standing_name(),
+        (_, false) => "coded",
+    };
+    for (cells, text) in columns.zip([row.origin.annotation_origin_name(), standing]) {
+        cells.push_text(Some(text));
     }
 }
 

@@ -111,6 +111,61 @@ fn annotations_are_rows_with_their_tiers_and_times() {
     }
 }
 
+/// Two signs; two annotators agree on the handshape of the first and not on that of the second.
+fn eaf_of_two_annotators() -> String {
+    let tier = |attributes: &str, values: [&str; 2]| {
+        let place = |nth: usize| format!("TIME_SLOT_REF1=\"t{}\" TIME_SLOT_REF2=\"t{}\"", 2 * nth, 2 * nth + 1);
+        let notes = values.iter().enumerate().map(|(nth, value)| {
+            let id = format!("{}{nth}", attributes.len());
+            let times = place(nth);
+            format!("<ANNOTATION><ALIGNABLE_ANNOTATION ANNOTATION_ID=\"a{id}\" {times}><ANNOTATION_VALUE>{value}</ANNOTATION_VALUE></ALIGNABLE_ANNOTATION></ANNOTATION>")
+        });
+        let notes: String = notes.collect();
+        format!("<TIER LINGUISTIC_TYPE_REF=\"x\" {attributes}>{notes}</TIER>")
+    };
+    let slots = (0..4).map(|nth| format!("<TIME_SLOT TIME_SLOT_ID=\"t{nth}\" TIME_VALUE=\"{}\"/>", nth * 100));
+    let slots: String = slots.collect();
+    let tiers = [
+        tier("TIER_ID=\"Gloss RH\"", ["BOL", "LUNE"]),
+        tier("TIER_ID=\"RH handshape\" ANNOTATOR=\"anna\"", ["U", "U"]),
+        tier("TIER_ID=\"RH handshape 2\" ANNOTATOR=\"ben\"", ["U", "B"]),
+    ];
+    let tiers = tiers.concat();
+    format!(
+        "<ANNOTATION_DOCUMENT AUTHOR=\"\" DATE=\"2024-05-06T07:08:09+01:00\" FORMAT=\"3.0\" VERSION=\"3.0\"><HEADER MEDIA_FILE=\"\" TIME_UNITS=\"milliseconds\"/><TIME_ORDER>{slots}</TIME_ORDER>{tiers}<LINGUISTIC_TYPE LINGUISTIC_TYPE_ID=\"x\" TIME_ALIGNABLE=\"true\"/></ANNOTATION_DOCUMENT>"
+    )
+}
+
+#[test]
+fn values_that_count_have_their_annotator_and_all_annotations_their_standing() {
+    let desk = Desk::new(&[("film.eaf", &eaf_of_two_annotators())]);
+    let said = |rows: Vec<Row>, names: &[&str]| {
+        let words = rows.iter().map(|row| {
+            let cells: Vec<String> = names.iter().map(|name| text(row, name)).collect();
+            cells.join(" ")
+        });
+        let mut words: Vec<String> = words.collect();
+        words.sort();
+        words
+    };
+    let values = desk.rows(&ExportWhat::All, "all.components.parquet");
+    assert!(values.iter().all(|row| *cell(row, "confidence") == Field::Null));
+    assert_eq!(
+        said(values, &["gloss", "component", "value", "by"]),
+        ["BOL configuration U anna"]
+    );
+    let annotations = desk.rows(&ExportWhat::All, "all.annotations.parquet");
+    let wanted = [
+        " BOL coded",
+        " LUNE coded",
+        "anna U coded",
+        "anna U disputed",
+        "ben B disputed",
+        "ben U coded",
+    ];
+    assert_eq!(said(annotations, &["annotator", "value", "standing"]), wanted);
+}
+
 #[test]
 fn tokens_have_their_codings_and_numbers_are_numbers() {
     let table = "gloss,handshape,frequency,first page\nLUNE,U,3.5,a\nSOLEIL,B,4,\nTERRE,n/a,,c\n";
