@@ -590,6 +590,8 @@ impl Corpus {
             {
                 let mut added = NewTier::new(recording.clone(), to.clone(), tier.role.clone());
                 added.hand = tier.hand;
+                added.annotator =
+                    Some(self.proposal_acceptor(tier.recording_id)?.author).filter(|name| !name.is_empty());
                 added.participant.clone_from(&tier.participant);
                 new.push(added);
             }

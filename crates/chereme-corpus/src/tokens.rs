@@ -244,11 +244,16 @@ impl AnnotationsByTime {
         };
         // Components compete for glosses, so glosses beside the window take part in the assignment.
         let mut context = reach;
+        let undecided = stored_merge::undecided_adjudications(connection, recording.id)?;
         for tier in of_components() {
             let inventory = inventories.iter().find(|stored| Some(stored.id) == tier.inventory_id);
             let rows = tier_annotations_within(connection, tier, by_time.within.and(Some(reach)))?;
             for (done, row) in rows.into_iter().enumerate() {
                 report_token_step(progress, done)?;
+                // Until somebody decides, the annotators' own tiers say what is in dispute.
+                if undecided.contains(&row.id) {
+                    continue;
+                }
                 context = hull_of_two_spans(context, annotation_row_span(&row));
                 by_time.add_component(tier, &row, inventory);
             }

@@ -20,9 +20,10 @@ use crate::db::edits;
 use crate::db::people::ADJUDICATION_ANNOTATOR;
 use crate::db::stored_tiers::{self as rows, AnnotationRow};
 use crate::error::{CorpusError, CorpusResult};
-use crate::inventories::StoredInventory;
+use crate::inventories::{self, StoredInventory};
 use crate::merge::keep_annotation;
 use crate::progress::ProgressReceiver;
+use crate::tokens;
 use crate::words::effect::OperationEffect;
 
 /// The result of an adjudication.
@@ -69,6 +70,7 @@ impl Corpus {
         let (all, mut report) = self.third_tiers(options, into)?;
         self.store.operation_with_progress(progress, |connection, progress| {
             edits::defer_references(connection)?;
+            let inventories = inventories::load_all_inventories(connection)?;
             for third in &all {
                 let written = AnnotateOptions::default();
                 let new = std::slice::from_ref(&third.tier);
@@ -90,6 +92,8 @@ impl Corpus {
                     });
                     keep_annotation(connection, &third.from, mine, theirs.as_ref())?;
                 }
+                // What is in conflict counts only after a decision, and was not known before.
+                tokens::update_recording_tokens(connection, third.recording, None, &inventories)?;
             }
             report.recordings = all.iter().map(|recording| recording.name.clone()).collect();
             let tier = into.to_owned();

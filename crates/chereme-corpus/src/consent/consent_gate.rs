@@ -188,15 +188,12 @@ impl PublishPermissions {
         Ok(permissions)
     }
 
-    /// Makes captured recordings with equal movement agree: what one of them withholds, the others do.
+    /// Makes recordings with equal movement agree: what one of them withholds, the others do.
     fn join_equal_movement(&mut self, connection: &Connection) -> CorpusResult<()> {
         for group in kept_movement::equal_movement_groups(connection)? {
-            let is_captured =
-                |id: &&i64| (self.recordings.get(*id)).is_some_and(|row| row.origin == RecordOrigin::Captured);
-            let captured: Vec<i64> = group.iter().filter(is_captured).copied().collect();
             // Annotation is no part of the movement, so equal movement says nothing about it.
             for kind in [ConsentKind::Movement, ConsentKind::Derived] {
-                let all: Vec<StatedAudience> = captured.iter().map(|id| self.stated_audience(*id, kind)).collect();
+                let all: Vec<StatedAudience> = group.iter().map(|id| self.stated_audience(*id, kind)).collect();
                 let least = all.iter().filter_map(|stated| stated.least).min();
                 let is_doubted = all.iter().any(|stated| stated.is_doubted);
                 for id in &group {

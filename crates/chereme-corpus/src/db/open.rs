@@ -142,6 +142,17 @@ fn outwardly_wrong(path: &Path) -> CorpusResult<Option<(String, ErrorRemedy)>> {
     if data.len() == 0 {
         return Ok(Some(("it is empty".to_owned(), choose_corpus_remedy())));
     }
+    Ok(None)
+}
+
+/// Returns by how much a database is shorter than it says, as a reason to refuse it.
+///
+/// Only a file that SQLite cannot read is looked at: when a process closes a file that it has opened beside SQLite, it loses
+/// the locks of its connections, and other programs then take their log away (<https://www.sqlite.org/howtocorrupt.html>,
+/// 2.2).
+fn cut_short_reason(path: &Path) -> CorpusResult<Option<String>> {
+    let fault = |error| CorpusError::from_file_failure(path, error);
+    let length = fs::metadata(path).map_err(fault)?.len();
     let mut head = [0; 100];
     let mut file = fs::File::open(path).map_err(fault)?;
     let is_sqlite = file.read_exact(&mut head).is_ok() && head.starts_with(b"SQLite format 3\0");
@@ -154,11 +165,8 @@ fn outwardly_wrong(path: &Path) -> CorpusResult<Option<(String, ErrorRemedy)>> {
     };
     let size = page * word(28);
     let logged = fs::metadata(stale_log::companion_path(path, "-wal")).is_ok_and(|log| log.len() > 0);
-    if is_sqlite && !logged && word(24) == word(92) && data.len() < size {
-        let reason = format!("it is cut short: {} bytes are there of {size}", data.len());
-        return Ok(Some((reason, "copy it again, or take it from a backup".into())));
-    }
-    Ok(None)
+    let is_cut_short = is_sqlite && !logged && word(24) == word(92) && length < size;
+    Ok(is_cut_short.then(|| format!("it is cut short: {length} bytes are there of {size}")))
 }
 
 /// Opens the database; if nothing may be written beside it, as an immutable file.
@@ -277,11 +285,18 @@ fn open_checked_connection(path: &Path) -> CorpusResult<(Connection, i32)> {
     let pragma = |name: &str| connection.pragma_query_value(None, name, |row| row.get::<_, i32>(0));
     let application = configured
         .and_then(|()| Ok(pragma("application_id")?))
-        .map_err(|error| match &error {
-            CorpusError::Database(fault) if fault.sqlite_error_code() == Some(ErrorCode::NotADatabase) => {
-                refuse("it is no database".into(), choose_corpus_remedy())
+        .map_err(|error| {
+            let code = match &error {
+                CorpusError::Database(fault) => fault.sqlite_error_code(),
+                _ => None,
+            };
+            match code {
+                Some(ErrorCode::NotADatabase) => refuse("it is no database".into(), choose_corpus_remedy()),
+                Some(ErrorCode::DatabaseCorrupt) if let Ok(Some(reason)) = cut_short_reason(path) => {
+                    refuse(reason, "copy it again, or take it from a backup".into())
+                }
+                _ => error,
             }
-            _ => error,
         })?;
     if application != APPLICATION_ID {
         return Err(refuse(
@@ -495,6 +510,29 @@ mod tests {
         run("INSERT INTO tier_role (name, note) VALUES ('unheard', 'of a newer program')").expect("stored");
         let error = open_corpus_file(&path).expect_err("a newer program wrote it");
         assert!(error.to_string().contains("does not know: unheard"), "{error}");
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_file_that_is_opened_again_and_searched_keeps_the_locks_of_its_connection() {
+        use std::os::unix::fs::MetadataExt;
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("c.chereme");
+        let connection = create_corpus_file(&path, |_| Ok(())).expect("made");
+        let inode = format!(":{} ", fs::metadata(&path).expect("a file").ino());
+        let locks = || {
+            let all = fs::read_to_string("/proc/locks").expect("read");
+            all.lines()
+                .filter(|line| line.contains("POSIX") && line.contains(&inode))
+                .count()
+        };
+        let version = |connection: &Connection| connection.query_row("SELECT count(*) FROM tier", [], |_| Ok(()));
+        version(&connection).expect("read");
+        assert_ne!(locks(), 0, "an open log of SQLite holds a lock");
+        let (again, _) = open_corpus_file(&path).expect("opened");
+        version(&again).expect("read");
+        drop(again);
+        assert_ne!(locks(), 0, "another connection does not end it");
     }
 
     /// Writes a file of the third version.

@@ -196,6 +196,8 @@ impl<'a> TraceFinder<'a> {
             chunk.drain(..chunk.len() - kept);
             let more = (&mut file).take(SEARCHED_CHUNK_BYTES as u64).read_to_end(&mut chunk);
             if more.map_err(fault)? == 0 {
+                // Closing the file would take the locks from the connections of this process.
+                std::mem::forget(file);
                 return Ok(());
             }
             left.extend(self.traces_in(&chunk));

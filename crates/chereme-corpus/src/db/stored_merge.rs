@@ -1,7 +1,7 @@
 //! Rows of two corpora that have diverged: their changes since then, with references by uid instead of row number.
 
 use std::cell::RefCell;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use rusqlite::{Connection, OptionalExtension, params};
 use serde_json::{Map, Value};
@@ -10,6 +10,7 @@ use super::stored_history;
 use super::stored_history::tracked::{
     TRACKED_TABLE_REFERENCES, column_from_image_sql, load_table_columns, refers_to, row_image,
 };
+use crate::db::people::ADJUDICATION_ANNOTATOR;
 use crate::error::CorpusResult;
 
 /// A row as JSON; columns that refer to other rows hold their uids.
@@ -485,6 +486,17 @@ pub(crate) fn list_corpus_notes(connection: &Connection, prefix: &str) -> Corpus
     let sql = "SELECT key, value FROM meta WHERE substr(key, 1, length(?1)) = ?1 ORDER BY key";
     let mut statement = connection.prepare_cached(sql)?;
     let rows = statement.query_map([prefix], |row| Ok((row.get(0)?, row.get(1)?)))?;
+    Ok(rows.collect::<rusqlite::Result<_>>()?)
+}
+
+/// Returns the annotations of a recording's adjudicated tiers between whose two candidates nobody has decided.
+pub(crate) fn undecided_adjudications(connection: &Connection, recording: i64) -> CorpusResult<BTreeSet<i64>> {
+    let sql = "SELECT a.id FROM tier t JOIN annotation a ON a.tier_id = t.id
+         WHERE t.recording_id = ?1 AND t.annotator = ?2 AND hex(a.uid) IN (
+             SELECT json_extract(value, '$.uid') FROM meta
+             WHERE key >= 'conflict:' AND key < 'conflict;' AND json_extract(value, '$.decided') IS NULL)";
+    let mut statement = connection.prepare_cached(sql)?;
+    let rows = statement.query_map(params![recording, ADJUDICATION_ANNOTATOR], |row| row.get(0))?;
     Ok(rows.collect::<rusqlite::Result<_>>()?)
 }
 

@@ -79,19 +79,22 @@ struct EarlierEntry {
 
 impl EarlierEntries {
     /// Reads the entries that earlier imports of the table at this place left; `is_known` says whether a file there was
-    /// imported before.
+    /// imported before. A table with ids also takes the entries of the lexicon that the user `named`, wherever its former
+    /// file was.
     pub(super) fn load_earlier_entries(
         job: &ImportJob<'_>,
         place: &str,
         is_known: bool,
+        named: Option<&str>,
         table: &SignLexicon,
     ) -> CorpusResult<Self> {
         let mut all = Self {
             row_id: RowIdColumn::find_row_id_column(table),
             ..Self::default()
         };
+        let named = named.filter(|_| all.row_id.is_some());
         let mut namesakes = job.places.files_of_same_name(&job.file_name);
-        if !is_known && !namesakes.any(|row| row.path.is_none()) {
+        if named.is_none() && !is_known && !namesakes.any(|row| row.path.is_none()) {
             return Ok(all);
         }
         for token in signs::lexicon_entries(job.connection)? {
@@ -105,6 +108,7 @@ impl EarlierEntries {
                 // Entries of older corpora know only the name of their file.
                 None => origin["file"].as_str() == Some(&job.file_name),
             };
+            let same = same || (named.is_some() && token.lexicon.as_deref() == named);
             // A sign from a SiGML file has no cells: it is an entry of its own.
             if let Value::Object(cells) = origin["cells"].take()
                 && same

@@ -309,9 +309,22 @@ impl LexiconSigns {
             .map(|lexicon| &lexicon.name)
             .chain(by_row.lexicons.keys());
         let names: Vec<&str> = names.map(String::as_str).collect();
+        if let Some(lexicon) = lexicon
+            .as_ref()
+            .filter(|_| job.options.lexicon.is_none() && source.newest.is_none())
+            && lexicon.name.starts_with(&format!("{} (", job.stem.trim()))
+        {
+            let (name, other) = (&lexicon.name, &job.stem);
+            report.findings.push(ReportFinding::finding_warning(
+                format!("there is a lexicon {other:?}, so this one is called {name:?}"),
+                format!("if it is a newer version, undo, and import it with --lexicon {other:?}"),
+            ));
+        }
         report.understood.lexicon = (!names.is_empty()).then(|| names.join(", "));
+        let named = job.options.lexicon.as_ref().and(lexicon.as_ref());
+        let named = named.map(|lexicon| lexicon.name.as_str());
         Ok(Self {
-            earlier: EarlierEntries::load_earlier_entries(job, &source.place, source.newest.is_some(), table)?,
+            earlier: EarlierEntries::load_earlier_entries(job, &source.place, source.newest.is_some(), named, table)?,
             source,
             lexicon: lexicon.map(|lexicon| lexicon.id),
             by_row,

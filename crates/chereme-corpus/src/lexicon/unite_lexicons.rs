@@ -114,7 +114,8 @@ fn take_over_fields(kept: &mut LexiconRow, gone: &LexiconRow) -> CorpusResult<()
     Err(CorpusError::from_wrong_message(text)
         .with_error_place(&gone.name)
         .with_advice(ErrorRemedy::command_remedy(
-            "say of both the one that is true first: `chereme lexicon CORPUS set NAME --release TEXT`",
+            "first give both the one that is true: `chereme lexicon CORPUS set NAME --language CODE`; --release, --terms and \
+             --citation set the others",
         )))
 }
 

@@ -201,8 +201,8 @@ pub(crate) fn list_conflicts(connection: &Connection) -> CorpusResult<Vec<Corpus
             None => open.mine.clone(),
         };
         let against = |own: &Option<RowImage>, other: &Option<RowImage>| {
-            own.as_ref()
-                .map(|image| conflict_candidate(&open.table, image, other.as_ref()))
+            let candidate = |image| conflict_candidate(&side, &open.table, image, other.as_ref());
+            own.as_ref().map(candidate).transpose()
         };
         all.push(CorpusConflict {
             number,
@@ -215,9 +215,9 @@ pub(crate) fn list_conflicts(connection: &Connection) -> CorpusResult<Vec<Corpus
                 Some(known) => recording_of_row(connection, &side, &open.table, &open.uid, known)?,
                 None => None,
             },
-            base: against(&open.base, &mine),
-            mine: against(&mine, &open.theirs),
-            theirs: against(&open.theirs, &mine),
+            base: against(&open.base, &mine)?,
+            mine: against(&mine, &open.theirs)?,
+            theirs: against(&open.theirs, &mine)?,
             from: open.from,
             decided: open.decided,
         });
@@ -281,7 +281,12 @@ fn in_words(json: &str) -> String {
     clauses.collect::<Vec<String>>().join(", ")
 }
 
-fn conflict_candidate(table: &str, own: &RowImage, other: Option<&RowImage>) -> ConflictCandidate {
+fn conflict_candidate(
+    side: &MergeSide<'_>,
+    table: &str,
+    own: &RowImage,
+    other: Option<&RowImage>,
+) -> CorpusResult<ConflictCandidate> {
     let text = |column: &str| own.get(column).and_then(Value::as_str).unwrap_or_default();
     if table == "annotation" {
         let value = match text("state") {
@@ -289,11 +294,11 @@ fn conflict_candidate(table: &str, own: &RowImage, other: Option<&RowImage>) -> 
             "unclear" => "unclear",
             _ => text("value"),
         };
-        return ConflictCandidate {
+        return Ok(ConflictCandidate {
             start_us: own.get("start_us").and_then(Value::as_i64),
             end_us: own.get("end_us").and_then(Value::as_i64),
             text: value.to_owned(),
-        };
+        });
     }
     let differs = |column: &str, value: &Value| other.is_none_or(|image| image.get(column) != Some(value));
     let shown = |column: &str, value: &Value| match value {
@@ -303,17 +308,35 @@ fn conflict_candidate(table: &str, own: &RowImage, other: Option<&RowImage>) -> 
     };
     // Nobody can choose between two hashes or documents by looking at them.
     let silent = ["uid", "data", "document", "source", "hash"];
-    let clauses: Vec<String> = own
+    let mut clauses = Vec::new();
+    for (column, value) in own
         .iter()
         .filter(|(column, value)| differs(column, value) && !value.is_null())
-        .filter(|(column, _)| !silent.contains(&column.as_str()) && refers_to(table, column).is_none())
-        .map(|(column, value)| format!("{column} {}", shown(column, value)))
-        .collect();
-    ConflictCandidate {
+    {
+        match refers_to(table, column) {
+            // A row is chosen by its name, such as that of the signer.
+            Some(referred) => {
+                let uid = value.as_str().unwrap_or_default();
+                let image = side.find_row_image(referred, uid)?.unwrap_or_default();
+                if let Some(name) = row_image_name(&image) {
+                    clauses.push(format!("{referred} {name}"));
+                }
+            }
+            None if silent.contains(&column.as_str()) => {}
+            None => clauses.push(format!("{column} {}", shown(column, value))),
+        }
+    }
+    Ok(ConflictCandidate {
         start_us: None,
         end_us: None,
         text: clauses.join(", "),
-    }
+    })
+}
+
+/// Returns the text by which people know a row.
+fn row_image_name(row: &RowImage) -> Option<&str> {
+    let columns = ["name", "gloss", "label", "key", "text"];
+    columns.into_iter().find_map(|column| row.get(column)?.as_str())
 }
 
 fn conflict_place(connection: &Connection, side: &MergeSide<'_>, table: &str, row: &RowImage) -> CorpusResult<String> {
@@ -327,8 +350,7 @@ fn conflict_place(connection: &Connection, side: &MergeSide<'_>, table: &str, ro
         let recording = stored_recordings::load_recording_row(connection, tier.recording_id)?;
         return Ok(format!("{}: {}", recording.name, tier.name));
     }
-    let row_name = ["name", "gloss", "key", "text"].into_iter().find_map(text);
-    let name = row_name.unwrap_or_default();
+    let name = row_image_name(row).unwrap_or_default();
     let above = text("recording_id").map(|uid| side.find_row_id("recording", uid));
     Ok(match above.transpose()?.flatten() {
         Some(above) => format!(
@@ -416,6 +438,8 @@ impl Corpus {
                 let text =
                     serde_json::to_string(&open).map_err(|error| CorpusError::from_wrong_message(error.to_string()))?;
                 db::set_note(connection, &key, &text)?;
+                // A decision counts as an adjudication, even where it changes no annotation.
+                rederive_conflict_tokens(connection, &open)?;
             }
             rules::check_new_violations(connection, &open_by_number)?;
             let all_conflicts = list_conflicts(connection)?.into_iter();

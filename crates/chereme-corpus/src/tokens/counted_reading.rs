@@ -42,7 +42,13 @@ impl<'a> AnnotatedGloss<'a> {
     pub(super) fn counted_token_values(&self) -> Vec<TokenValueRow> {
         let (mut counted, mut opinions) = (Vec::new(), Vec::new());
         for (_, tiers) in self.coded_by_field() {
-            let (proposed, coded): (Vec<_>, Vec<_>) = tiers.into_values().partition(|tier| tier[0].is_proposal);
+            let (mut proposed, mut coded) = (Vec::new(), Vec::new());
+            for tier in tiers.into_values() {
+                // A person may have corrected some proposals of a tier and left the others.
+                let (proposals, codings): (Vec<_>, Vec<_>) = tier.into_iter().partition(|one| one.is_proposal);
+                proposed.extend(Some(proposals).filter(|some| !some.is_empty()));
+                coded.extend(Some(codings).filter(|some| !some.is_empty()));
+            }
             let readings = merge_tiers_of_annotators(coded);
             let (counting, disputed) = self.split_disputed(&readings);
             counted.extend(counting.iter().map(|(field, source)| counted_row(field, source)));

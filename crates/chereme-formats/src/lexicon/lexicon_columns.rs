@@ -260,8 +260,11 @@ pub(super) fn infer_column_meanings(
     for at in names.iter().skip(1) {
         let column = &mut columns[*at];
         if let LexiconColumnMeaning::Gloss { language } = &column.meaning {
-            column.meaning = LexiconColumnMeaning::Translation {
-                language: language.clone(),
+            column.meaning = match is_entry_id(&column.title) {
+                true => LexiconColumnMeaning::Attribute,
+                false => LexiconColumnMeaning::Translation {
+                    language: language.clone(),
+                },
             };
         }
     }
@@ -371,8 +374,8 @@ fn second_meaning(meaning: &LexiconColumnMeaning) -> LexiconColumnMeaning {
 }
 
 /// Returns the columns of glosses, first the one that names the sign: the first one of a mapping, otherwise the first one
-/// whose title speaks of annotation, because several signs of Signbank share a lemma, otherwise the first one. A column
-/// that many rows leave empty comes after a fuller one, unless a mapping names it.
+/// whose title speaks of annotation, because several signs of Signbank share a lemma, otherwise the first one. The id
+/// of an entry, and a column that many rows leave empty, come after others, unless a mapping names them.
 fn gloss_columns(columns: &[LexiconColumn], rows: &[TableRow]) -> Vec<usize> {
     let annotation = |title: &str| {
         let words = normalize_tier_name(&with_parted_words(title));
@@ -389,11 +392,17 @@ fn gloss_columns(columns: &[LexiconColumn], rows: &[TableRow]) -> Vec<usize> {
             let mapped = column.confidence >= 1.0;
             // Eight rows of ten are enough.
             let empty = if mapped { 0 } else { 8 - tenths(at).min(8) };
-            (!mapped, empty, !annotation(&column.title), at)
+            // In ASL-LEX an entry's id is its gloss; a table with another gloss has ids beside it.
+            let is_id = !mapped && is_entry_id(&column.title);
+            (!mapped, is_id, empty, !annotation(&column.title), at)
         })
         .collect();
     candidates.sort_unstable();
     candidates.into_iter().map(|(.., at)| at).collect()
+}
+
+fn is_entry_id(title: &str) -> bool {
+    ["entryid", "entry id"].contains(&normalize_tier_name(&with_parted_words(title)).as_str())
 }
 
 /// Returns whether a row has a cell with text in a column.

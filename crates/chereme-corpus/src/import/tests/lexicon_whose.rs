@@ -57,6 +57,39 @@ fn corpus_of_two(folder: &Path) -> Corpus {
 }
 
 #[test]
+fn a_newer_version_in_another_folder_updates_the_lexicon_that_is_named() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = Corpus::create_corpus(&folder.path().join("c.chereme"), "test").expect("made");
+    let [old, new] = ["old", "new"].map(|name| folder.path().join(name).join("asl.csv"));
+    for (path, mother) in [(&old, "MOTHER"), (&new, "MUM")] {
+        fs::create_dir_all(path.parent().expect("a folder")).expect("made");
+        let text = format!("Gloss,Signbank ID,Handshape\nBOOK,a7,B\n{mother},a9,5\n");
+        fs::write(path, text).expect("written");
+    }
+    import_file(&mut corpus, &old);
+    let report = import_file(&mut corpus, &new);
+    let said: Vec<&str> = report.findings.iter().map(|finding| finding.message.as_str()).collect();
+    assert!(
+        said.iter().any(|text| text.contains("there is a lexicon \"asl\"")),
+        "{said:?}"
+    );
+    assert_eq!(found(&mut corpus, "gloss=*").len(), 4);
+    corpus.undo_operation().expect("undone");
+    let options = ImportOptions {
+        lexicon: Some("asl".to_owned()),
+        ..ImportOptions::default()
+    };
+    let report = import_with(&mut corpus, &new, &options);
+    let said: Vec<&str> = report.findings.iter().map(|finding| finding.message.as_str()).collect();
+    assert!(
+        said.iter()
+            .any(|text| text.contains("0 new, 1 changed, 1 as before, 0 gone")),
+        "{said:?}"
+    );
+    assert_eq!(found(&mut corpus, "gloss=*"), ["BOOK", "MUM"]);
+}
+
+#[test]
 fn one_gloss_in_two_tables_is_two_signs() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut corpus = corpus_of_two(folder.path());

@@ -5,6 +5,7 @@ use crate::address::CorpusAddress;
 use crate::details::ValueOpinion;
 use crate::search::OpinionStanding;
 use crate::tokens;
+use crate::{AgreeOptions, ConflictDecision, ProgressReceiver, ignore_progress_step};
 
 /// A tier of an annotator, with annotations of an origin in milliseconds.
 struct Said<'a> {
@@ -66,6 +67,53 @@ fn coding(sample: &mut Sample) -> String {
         format!("{}={} {standing} {by}", one.field, one.value)
     });
     format!("{} | {}", counted.join(" "), opinions.collect::<Vec<_>>().join(", "))
+}
+
+#[test]
+fn an_adjudication_counts_only_where_somebody_has_decided() {
+    let disputed = " | right.configuration=flat disputed anna, right.configuration=5 disputed ben";
+    for (decision, wanted) in [
+        (ConflictDecision::Mine, "right.configuration=\"flat\" | "),
+        (ConflictDecision::Theirs, "right.configuration=\"5\" | "),
+    ] {
+        let mut sample = corpus_of_one_sign(&[
+            by_person("anna", &[(0, 1000, "flat")]),
+            by_person("ben", &[(0, 1000, "5")]),
+        ]);
+        let options = AgreeOptions::new("right.configuration 0", "right.configuration 1");
+        let mut hear = ignore_progress_step;
+        let progress = &mut ProgressReceiver::new(&mut hear);
+        let done = sample
+            .corpus
+            .adjudicate_tiers(&options, "both", progress)
+            .expect("adjudicated");
+        assert_eq!(done.conflicts, 1);
+        assert_eq!(coding(&mut sample), disputed, "nobody has decided");
+        sample.corpus.decide_conflicts(&[1], decision).expect("decided");
+        assert_eq!(coding(&mut sample), wanted);
+        sample.corpus.undo_operation().expect("undone");
+        assert_eq!(coding(&mut sample), disputed, "the decision is undone");
+    }
+}
+
+#[test]
+fn a_proposal_that_a_person_corrected_leaves_its_neighbours_proposals() {
+    let proposed = Said {
+        field: "right.configuration",
+        annotator: "",
+        origin: AnnotationOrigin::Detector,
+        values: &[(0, 500, "flat"), (500, 1000, "5")],
+    };
+    let mut sample = corpus_of_one_sign(&[proposed]);
+    sample.work(|connection| {
+        let sql = "UPDATE annotation SET origin = 'human', value = 'B' WHERE value = 'flat'";
+        connection.execute(sql, [])?;
+        tokens::update_recording_tokens(connection, 1, None, &[])
+    });
+    assert_eq!(
+        coding(&mut sample),
+        "right.configuration=\"B\" | right.configuration=5 proposed detector"
+    );
 }
 
 #[test]

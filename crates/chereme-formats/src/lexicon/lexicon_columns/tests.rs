@@ -41,6 +41,20 @@ fn titles_state_the_hand_of_a_component() {
 }
 
 #[test]
+fn the_id_of_an_entry_is_its_gloss_only_where_there_is_no_other() {
+    for (titles, wanted) in [
+        (&["EntryID", "Handshape"][..], &["gloss", "dominant.configuration"][..]),
+        (
+            &["EntryID", "Gloss", "Handshape"],
+            &["attribute", "gloss", "dominant.configuration"],
+        ),
+        (&["Gloss", "Entry ID"], &["gloss", "attribute"]),
+    ] {
+        assert_eq!(meant(titles, &vec!["a"; titles.len()]).0, wanted, "{titles:?}");
+    }
+}
+
+#[test]
 fn two_columns_of_one_component_are_reported() {
     let (_, said) = meant(&["gloss", "Handshape", "Handform"], &["A", "U", "V"]);
     assert!(said[0].contains("\"Handshape\" and \"Handform\""), "{said:?}");
