@@ -168,22 +168,7 @@ impl fmt::Display for RecipeFactor {
     }
 }
 
-macro_rules! as_text {
-    ($($name:ty),*) => {$(
-        impl TryFrom<String> for $name {
-            type Error = UnitError;
-            fn try_from(text: String) -> Result<Self, UnitError> {
-                text.parse()
-            }
-        }
-        impl From<$name> for String {
-            fn from(quantity: $name) -> Self {
-                quantity.to_string()
-            }
-        }
-    )*};
-}
-as_text!(RecipeLength, RecipeSeconds, RecipeDegrees, RecipeFactor);
+chereme_motion::keep_as_text!(RecipeLength, RecipeSeconds, RecipeDegrees, RecipeFactor);
 
 fn split_number_unit<'a>(text: &'a str, example: &'static str) -> Result<(f64, &'a str), UnitError> {
     let text = text.trim();

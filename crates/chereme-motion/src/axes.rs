@@ -113,18 +113,7 @@ impl FromStr for AxisDirection {
     }
 }
 
-impl TryFrom<String> for AxisDirection {
-    type Error = AxesError;
-    fn try_from(text: String) -> Result<Self, AxesError> {
-        text.parse()
-    }
-}
-
-impl From<AxisDirection> for String {
-    fn from(direction: AxisDirection) -> Self {
-        direction.to_string()
-    }
-}
+crate::keep_as_text!(AxisDirection);
 
 /// The directions in a file that are the signer's up and left; the third follows from the right-hand rule.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]

@@ -53,6 +53,7 @@ pub mod fit;
 pub mod hand;
 pub mod ik;
 pub mod interpolation;
+mod kept_text;
 pub mod lapses;
 pub mod markers;
 pub mod pose;

@@ -329,18 +329,7 @@ impl FromStr for ComponentField {
     }
 }
 
-impl TryFrom<String> for ComponentField {
-    type Error = FieldError;
-    fn try_from(text: String) -> Result<Self, FieldError> {
-        text.parse()
-    }
-}
-
-impl From<ComponentField> for String {
-    fn from(field: ComponentField) -> Self {
-        field.to_string()
-    }
-}
+chereme_motion::keep_as_text!(ComponentField);
 
 /// A text that names no field.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]

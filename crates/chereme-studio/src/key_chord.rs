@@ -179,19 +179,7 @@ impl FromStr for KeyChord {
     }
 }
 
-impl TryFrom<String> for KeyChord {
-    type Error = NoChord;
-
-    fn try_from(text: String) -> Result<Self, NoChord> {
-        text.parse()
-    }
-}
-
-impl From<KeyChord> for String {
-    fn from(chord: KeyChord) -> Self {
-        chord.to_string()
-    }
-}
+chereme_motion::keep_as_text!(KeyChord);
 
 #[cfg(test)]
 mod tests {

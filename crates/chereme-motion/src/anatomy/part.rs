@@ -216,18 +216,7 @@ impl FromStr for BodyPart {
     }
 }
 
-impl TryFrom<String> for BodyPart {
-    type Error = PartError;
-    fn try_from(text: String) -> Result<Self, PartError> {
-        text.parse()
-    }
-}
-
-impl From<BodyPart> for String {
-    fn from(part: BodyPart) -> Self {
-        part.to_string()
-    }
-}
+crate::keep_as_text!(BodyPart);
 
 /// Returns the candidate with the spelling most similar to `text`, ignoring case; the first of equal ones.
 pub(super) fn nearest_spelling<'a>(text: &str, candidates: impl Iterator<Item = &'a str>) -> &'a str {

@@ -245,19 +245,7 @@ impl fmt::Display for FileNumber {
     }
 }
 
-impl From<FileNumber> for String {
-    fn from(number: FileNumber) -> Self {
-        number.to_string()
-    }
-}
-
-impl TryFrom<String> for FileNumber {
-    type Error = NotANumber;
-
-    fn try_from(text: String) -> Result<Self, NotANumber> {
-        text.parse()
-    }
-}
+crate::keep_as_text!(FileNumber);
 
 impl FromStr for FileNumber {
     type Err = NotANumber;

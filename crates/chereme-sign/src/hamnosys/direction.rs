@@ -162,18 +162,7 @@ impl FromStr for SpatialDirection {
     }
 }
 
-impl TryFrom<String> for SpatialDirection {
-    type Error = DirectionError;
-    fn try_from(text: String) -> Result<Self, Self::Error> {
-        text.parse()
-    }
-}
-
-impl From<SpatialDirection> for String {
-    fn from(direction: SpatialDirection) -> Self {
-        direction.to_string()
-    }
-}
+chereme_motion::keep_as_text!(SpatialDirection);
 
 /// One of eight directions about an axis: of a palm, of a curve's bulge, of a circle's start.
 ///
