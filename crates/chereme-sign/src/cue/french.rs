@@ -154,38 +154,6 @@ pub fn pronounce_with_dictionary(
     spoken
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct FrenchRuleFile {
-    #[serde(rename = "about")]
-    _about: String,
-    vowels: String,
-    consonants: String,
-    nasal_ent: String,
-    #[serde(rename = "er_is_ER")]
-    er_is_said: Vec<String>,
-    elided: BTreeMap<String, String>,
-    words: BTreeMap<String, String>,
-    liaison: BTreeMap<String, Vec<String>>,
-    linked_endings: BTreeMap<String, Vec<String>>,
-    never_linked: BTreeSet<String>,
-    homographs: BTreeMap<String, String>,
-    before_vowels: BTreeMap<String, String>,
-    aspirated_h: BTreeSet<String>,
-    aspirated_stems: Vec<String>,
-    letters: BTreeMap<char, String>,
-    spelled: BTreeSet<String>,
-    acronyms: BTreeMap<String, String>,
-    short_words: BTreeSet<String>,
-    beginnings: BTreeSet<String>,
-    ending_pairs: BTreeSet<String>,
-    months: Vec<String>,
-    units: BTreeMap<String, String>,
-    symbols: BTreeMap<char, String>,
-    abbreviations: BTreeMap<String, String>,
-    rules: Vec<Vec<String>>,
-}
-
 struct SpellingRule {
     left: Regex,
     letters: String,
@@ -194,13 +162,21 @@ struct SpellingRule {
     verb_ending: bool,
 }
 
+/// The file `cues/french-spelling.json`, and what is looked up in it by another key.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(super) struct SpellingRules {
+    #[serde(rename = "about")]
+    _about: String,
     pub(super) vowels: String,
-    nasal_ent: Option<Regex>,
+    consonants: String,
+    nasal_ent: String,
+    #[serde(rename = "er_is_ER")]
     er_is_said: BTreeSet<String>,
     elided: BTreeMap<String, String>,
     pub(super) words: BTreeMap<String, String>,
-    liaison: BTreeMap<String, String>,
+    /// Words by the consonant that links them to the next word.
+    liaison: BTreeMap<String, Vec<String>>,
     /// Endings of verbs by the linking consonant that they have.
     linked_endings: BTreeMap<String, Vec<String>>,
     /// Words with such an ending that are not verbs.
@@ -232,79 +208,38 @@ pub(super) struct SpellingRules {
     pub(super) symbols: BTreeMap<char, String>,
     /// Short forms and the words that they stand for.
     pub(super) abbreviations: BTreeMap<String, String>,
+    rules: Vec<Vec<String>>,
+    #[serde(skip)]
+    nasal_pattern: Option<Regex>,
+    /// The consonant that links each word of `liaison`.
+    #[serde(skip)]
+    linking_sounds: BTreeMap<String, String>,
     /// The rules by their first letter, in the order of the file.
+    #[serde(skip)]
     by_letter: BTreeMap<char, Vec<SpellingRule>>,
 }
 
 pub(super) static FRENCH_SPELLING_RULES: LazyLock<SpellingRules> = LazyLock::new(|| {
     let text = chereme_data::schema_text("cues/french-spelling.json");
-    serde_json::from_str(text).map_or_else(|_| SpellingRules::empty_spelling_rules(), SpellingRules::from_rule_file)
+    let file: SpellingRules = serde_json::from_str(text).unwrap_or_default();
+    file.with_lookup_tables()
 });
 
 impl SpellingRules {
-    fn empty_spelling_rules() -> Self {
-        Self {
-            vowels: String::new(),
-            nasal_ent: None,
-            er_is_said: BTreeSet::new(),
-            elided: BTreeMap::new(),
-            words: BTreeMap::new(),
-            liaison: BTreeMap::new(),
-            linked_endings: BTreeMap::new(),
-            never_linked: BTreeSet::new(),
-            homographs: BTreeMap::new(),
-            before_vowels: BTreeMap::new(),
-            aspirated_h: BTreeSet::new(),
-            aspirated_stems: Vec::new(),
-            letters: BTreeMap::new(),
-            spelled: BTreeSet::new(),
-            acronyms: BTreeMap::new(),
-            short_words: BTreeSet::new(),
-            beginnings: BTreeSet::new(),
-            ending_pairs: BTreeSet::new(),
-            months: Vec::new(),
-            units: BTreeMap::new(),
-            symbols: BTreeMap::new(),
-            abbreviations: BTreeMap::new(),
-            by_letter: BTreeMap::new(),
-        }
-    }
-
-    fn from_rule_file(file: FrenchRuleFile) -> Self {
-        let mut rules = Self::empty_spelling_rules();
-        for row in &file.rules {
-            let Some((rule, first)) = parse_spelling_rule(row, &file) else {
+    fn with_lookup_tables(mut self) -> Self {
+        for row in &self.rules {
+            let Some((rule, first)) = parse_spelling_rule(row, &self) else {
                 continue;
             };
-            rules.by_letter.entry(first).or_default().push(rule);
+            self.by_letter.entry(first).or_default().push(rule);
         }
-        for (sound, words) in file.liaison {
+        for (sound, words) in &self.liaison {
             for word in words {
-                rules.liaison.insert(word, sound.clone());
+                self.linking_sounds.insert(word.clone(), sound.clone());
             }
         }
-        rules.nasal_ent = Regex::new(&file.nasal_ent).ok();
-        rules.er_is_said = file.er_is_said.into_iter().collect();
-        rules.vowels = file.vowels;
-        rules.elided = file.elided;
-        rules.words = file.words;
-        rules.linked_endings = file.linked_endings;
-        rules.never_linked = file.never_linked;
-        rules.homographs = file.homographs;
-        rules.before_vowels = file.before_vowels;
-        rules.aspirated_h = file.aspirated_h;
-        rules.aspirated_stems = file.aspirated_stems;
-        rules.letters = file.letters;
-        rules.spelled = file.spelled;
-        rules.acronyms = file.acronyms;
-        rules.short_words = file.short_words;
-        rules.beginnings = file.beginnings;
-        rules.ending_pairs = file.ending_pairs;
-        rules.months = file.months;
-        rules.units = file.units;
-        rules.symbols = file.symbols;
-        rules.abbreviations = file.abbreviations;
-        rules
+        self.nasal_pattern = Regex::new(&self.nasal_ent).ok();
+        self
     }
 
     fn pronounce_french_word(&self, text: String, findings: &mut Vec<CueFinding>) -> FrenchWord {
@@ -387,7 +322,10 @@ impl SpellingRules {
                 continue;
             };
             letter_start += rule.letters.len();
-            let is_nasal = self.nasal_ent.as_ref().is_some_and(|pattern| pattern.is_match(word));
+            let is_nasal = self
+                .nasal_pattern
+                .as_ref()
+                .is_some_and(|pattern| pattern.is_match(word));
             if rule.verb_ending && is_nasal {
                 phones.push("A~".to_owned());
             } else {
@@ -536,7 +474,7 @@ impl SpellingRules {
         if word.hyphened && is_subject && !next.hyphened {
             return None;
         }
-        if let Some(sound) = self.liaison.get(text) {
+        if let Some(sound) = self.linking_sounds.get(text) {
             return Some(sound);
         }
         if self.never_linked.contains(text) {
@@ -572,7 +510,7 @@ impl SpellingRules {
 }
 
 /// Reads a row of the file; V and C stand for the letters of the file.
-fn parse_spelling_rule(row: &[String], file: &FrenchRuleFile) -> Option<(SpellingRule, char)> {
+fn parse_spelling_rule(row: &[String], file: &SpellingRules) -> Option<(SpellingRule, char)> {
     let [left, letters, right, phones, ..] = row else {
         return None;
     };
