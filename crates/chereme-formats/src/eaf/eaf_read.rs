@@ -63,14 +63,17 @@ impl<'a> DocumentReader<'a> {
                 "HEADER" => self.read_eaf_header(&child, &mut doc.header)?,
                 "TIME_ORDER" => self.time_order(&child, &mut doc.time_order)?,
                 "TIER" => doc.tiers.push(self.read_eaf_tier(&child)?),
-                "LINGUISTIC_TYPE" => doc.linguistic_types.push(self.linguistic_type(&child)?),
-                "LOCALE" => doc.locales.push(self.read_eaf_locale(&child)?),
-                "LANGUAGE" => doc.languages.push(self.read_eaf_language(&child)?),
-                "CONSTRAINT" => doc.constraints.push(self.read_eaf_constraint(&child)?),
+                "LINGUISTIC_TYPE" => doc.linguistic_types.push(LinguisticType {
+                    at: child.start_tag_position(),
+                    ..LinguisticType::read_leaf(self, &child)?
+                }),
+                "LOCALE" => doc.locales.push(EafLocale::read_leaf(self, &child)?),
+                "LANGUAGE" => doc.languages.push(EafLanguage::read_leaf(self, &child)?),
+                "CONSTRAINT" => doc.constraints.push(EafConstraint::read_leaf(self, &child)?),
                 "CONTROLLED_VOCABULARY" => doc.vocabularies.push(self.read_eaf_vocabulary(&child)?),
-                "LEXICON_REF" => doc.lexicon_refs.push(self.lexicon_ref(&child)?),
+                "LEXICON_REF" => doc.lexicon_refs.push(LexiconRef::read_leaf(self, &child)?),
                 "REF_LINK_SET" => doc.ref_link_sets.push(self.ref_link_set(&child)?),
-                "EXTERNAL_REF" => doc.external_refs.push(self.external_ref(&child)?),
+                "EXTERNAL_REF" => doc.external_refs.push(ExternalRef::read_leaf(self, &child)?),
                 _ => self.keep_unknown_child(tag, &child, &mut kept)?,
             }
         }
@@ -97,46 +100,14 @@ impl<'a> DocumentReader<'a> {
         )?;
         while let Some(child) = self.cursor.next_child_tag(tag)? {
             match child.name {
-                "MEDIA_DESCRIPTOR" => header.media.push(self.read_media_descriptor(&child)?),
-                "LINKED_FILE_DESCRIPTOR" => header.linked_files.push(self.linked_file(&child)?),
+                "MEDIA_DESCRIPTOR" => header.media.push(MediaDescriptor::read_leaf(self, &child)?),
+                "LINKED_FILE_DESCRIPTOR" => header.linked_files.push(LinkedFile::read_leaf(self, &child)?),
                 "PROPERTY" => header.properties.push(self.read_eaf_property(&child)?),
                 _ => self.keep_unknown_child(tag, &child, &mut kept)?,
             }
         }
         header.kept = kept;
         Ok(())
-    }
-
-    fn read_media_descriptor(&mut self, tag: &XmlStartTag<'a>) -> Result<MediaDescriptor<'a>, EafError> {
-        let mut media = MediaDescriptor::default();
-        let kept = self.read_attribute_fields(
-            tag,
-            &mut [
-                ("MEDIA_URL", AttributeField::Required(&mut media.url)),
-                ("MIME_TYPE", AttributeField::Required(&mut media.mime_type)),
-                ("RELATIVE_MEDIA_URL", AttributeField::Optional(&mut media.relative_url)),
-                ("TIME_ORIGIN", AttributeField::Time(&mut media.time_origin)),
-                ("EXTRACTED_FROM", AttributeField::Optional(&mut media.extracted_from)),
-            ],
-        )?;
-        media.kept = self.read_leaf_end(tag, kept)?;
-        Ok(media)
-    }
-
-    fn linked_file(&mut self, tag: &XmlStartTag<'a>) -> Result<LinkedFile<'a>, EafError> {
-        let mut file = LinkedFile::default();
-        let kept = self.read_attribute_fields(
-            tag,
-            &mut [
-                ("LINK_URL", AttributeField::Required(&mut file.url)),
-                ("MIME_TYPE", AttributeField::Required(&mut file.mime_type)),
-                ("RELATIVE_LINK_URL", AttributeField::Optional(&mut file.relative_url)),
-                ("TIME_ORIGIN", AttributeField::Time(&mut file.time_origin)),
-                ("ASSOCIATED_WITH", AttributeField::Optional(&mut file.associated_with)),
-            ],
-        )?;
-        file.kept = self.read_leaf_end(tag, kept)?;
-        Ok(file)
     }
 
     fn read_eaf_property(&mut self, tag: &XmlStartTag<'a>) -> Result<EafProperty<'a>, EafError> {
@@ -152,28 +123,15 @@ impl<'a> DocumentReader<'a> {
         self.not_kept(tag, kept.as_deref());
         while let Some(child) = self.cursor.next_child_tag(tag)? {
             if child.name == "TIME_SLOT" {
-                slots.push(self.time_slot(&child)?);
+                slots.push(TimeSlot {
+                    at: child.start_tag_position(),
+                    ..TimeSlot::read_leaf(self, &child)?
+                });
             } else {
                 self.skip_unknown(tag, &child)?;
             }
         }
         Ok(())
-    }
-
-    fn time_slot(&mut self, tag: &XmlStartTag<'a>) -> Result<TimeSlot<'a>, EafError> {
-        let mut slot = TimeSlot {
-            at: tag.start_tag_position(),
-            ..TimeSlot::default()
-        };
-        let kept = self.read_attribute_fields(
-            tag,
-            &mut [
-                ("TIME_SLOT_ID", AttributeField::Required(&mut slot.id)),
-                ("TIME_VALUE", AttributeField::Time(&mut slot.value)),
-            ],
-        )?;
-        slot.kept = self.read_leaf_end(tag, kept)?;
-        Ok(slot)
     }
 
     fn read_eaf_tier(&mut self, tag: &XmlStartTag<'a>) -> Result<EafTier<'a>, EafError> {
@@ -293,71 +251,6 @@ impl<'a> DocumentReader<'a> {
         Ok(())
     }
 
-    fn linguistic_type(&mut self, tag: &XmlStartTag<'a>) -> Result<LinguisticType<'a>, EafError> {
-        let mut kind = LinguisticType {
-            at: tag.start_tag_position(),
-            ..LinguisticType::default()
-        };
-        let kept = self.read_attribute_fields(
-            tag,
-            &mut [
-                ("LINGUISTIC_TYPE_ID", AttributeField::Required(&mut kind.id)),
-                ("TIME_ALIGNABLE", AttributeField::Flag(&mut kind.time_alignable)),
-                ("CONSTRAINTS", AttributeField::Optional(&mut kind.constraints)),
-                ("GRAPHIC_REFERENCES", AttributeField::Flag(&mut kind.graphic_references)),
-                (
-                    "CONTROLLED_VOCABULARY_REF",
-                    AttributeField::Optional(&mut kind.vocabulary),
-                ),
-                ("EXT_REF", AttributeField::Optional(&mut kind.external_ref)),
-                ("LEXICON_REF", AttributeField::Optional(&mut kind.lexicon_ref)),
-            ],
-        )?;
-        kind.kept = self.read_leaf_end(tag, kept)?;
-        Ok(kind)
-    }
-
-    fn read_eaf_locale(&mut self, tag: &XmlStartTag<'a>) -> Result<EafLocale<'a>, EafError> {
-        let mut locale = EafLocale::default();
-        let kept = self.read_attribute_fields(
-            tag,
-            &mut [
-                ("LANGUAGE_CODE", AttributeField::Required(&mut locale.language)),
-                ("COUNTRY_CODE", AttributeField::Optional(&mut locale.country)),
-                ("VARIANT", AttributeField::Optional(&mut locale.variant)),
-            ],
-        )?;
-        locale.kept = self.read_leaf_end(tag, kept)?;
-        Ok(locale)
-    }
-
-    fn read_eaf_language(&mut self, tag: &XmlStartTag<'a>) -> Result<EafLanguage<'a>, EafError> {
-        let mut language = EafLanguage::default();
-        let kept = self.read_attribute_fields(
-            tag,
-            &mut [
-                ("LANG_ID", AttributeField::Required(&mut language.id)),
-                ("LANG_DEF", AttributeField::Optional(&mut language.definition)),
-                ("LANG_LABEL", AttributeField::Optional(&mut language.label)),
-            ],
-        )?;
-        language.kept = self.read_leaf_end(tag, kept)?;
-        Ok(language)
-    }
-
-    fn read_eaf_constraint(&mut self, tag: &XmlStartTag<'a>) -> Result<EafConstraint<'a>, EafError> {
-        let mut constraint = EafConstraint::default();
-        let kept = self.read_attribute_fields(
-            tag,
-            &mut [
-                ("STEREOTYPE", AttributeField::Required(&mut constraint.stereotype)),
-                ("DESCRIPTION", AttributeField::Optional(&mut constraint.description)),
-            ],
-        )?;
-        constraint.kept = self.read_leaf_end(tag, kept)?;
-        Ok(constraint)
-    }
-
     fn read_eaf_vocabulary(&mut self, tag: &XmlStartTag<'a>) -> Result<EafVocabulary<'a>, EafError> {
         let mut cv = EafVocabulary {
             at: tag.start_tag_position(),
@@ -381,7 +274,7 @@ impl<'a> DocumentReader<'a> {
                 "DESCRIPTION" => cv.descriptions.push(self.read_vocabulary_description(&child)?),
                 "CV_ENTRY_ML" => cv.entries.push(self.read_vocabulary_entry(&child)?),
                 "CV_ENTRY" => cv.entries.push(self.legacy_entry(&child)?),
-                "EXTERNAL_REF" => cv.external_refs.push(self.external_ref(&child)?),
+                "EXTERNAL_REF" => cv.external_refs.push(ExternalRef::read_leaf(self, &child)?),
                 _ => self.keep_unknown_child(tag, &child, &mut kept)?,
             }
         }
@@ -444,25 +337,6 @@ impl<'a> DocumentReader<'a> {
         Ok(entry)
     }
 
-    fn lexicon_ref(&mut self, tag: &XmlStartTag<'a>) -> Result<LexiconRef<'a>, EafError> {
-        let mut lexicon = LexiconRef::default();
-        let kept = self.read_attribute_fields(
-            tag,
-            &mut [
-                ("LEX_REF_ID", AttributeField::Required(&mut lexicon.id)),
-                ("NAME", AttributeField::Text(&mut lexicon.name)),
-                ("TYPE", AttributeField::Text(&mut lexicon.kind)),
-                ("URL", AttributeField::Text(&mut lexicon.url)),
-                ("LEXICON_ID", AttributeField::Text(&mut lexicon.lexicon_id)),
-                ("LEXICON_NAME", AttributeField::Text(&mut lexicon.lexicon_name)),
-                ("DATCAT_ID", AttributeField::Optional(&mut lexicon.category_id)),
-                ("DATCAT_NAME", AttributeField::Optional(&mut lexicon.category_name)),
-            ],
-        )?;
-        lexicon.kept = self.read_leaf_end(tag, kept)?;
-        Ok(lexicon)
-    }
-
     fn ref_link_set(&mut self, tag: &XmlStartTag<'a>) -> Result<RefLinkSet<'a>, EafError> {
         let mut set = RefLinkSet::default();
         let mut early = None;
@@ -521,20 +395,6 @@ impl<'a> DocumentReader<'a> {
         };
         link.text = self.cursor.read_tag_text(tag)?;
         Ok(link)
-    }
-
-    fn external_ref(&mut self, tag: &XmlStartTag<'a>) -> Result<ExternalRef<'a>, EafError> {
-        let mut reference = ExternalRef::default();
-        let kept = self.read_attribute_fields(
-            tag,
-            &mut [
-                ("EXT_REF_ID", AttributeField::Required(&mut reference.id)),
-                ("TYPE", AttributeField::Text(&mut reference.kind)),
-                ("VALUE", AttributeField::Text(&mut reference.value)),
-            ],
-        )?;
-        reference.kept = self.read_leaf_end(tag, kept)?;
-        Ok(reference)
     }
 }
 

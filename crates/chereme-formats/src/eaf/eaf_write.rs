@@ -98,10 +98,6 @@ fn upgrade_vocabulary(vocabulary: &mut EafVocabulary<'_>) -> bool {
     legacy
 }
 
-fn flag_text(value: Option<bool>) -> Option<&'static str> {
-    value.map(|value| if value { "true" } else { "false" })
-}
-
 fn write_eaf_root<W: Write>(doc: &EafDocument<'_>, xml: &mut XmlOutput<'_, W>) -> io::Result<()> {
     let pairs = [
         ("AUTHOR", Some(&*doc.author)),
@@ -122,25 +118,19 @@ fn write_eaf_root<W: Write>(doc: &EafDocument<'_>, xml: &mut XmlOutput<'_, W>) -
         }
         write_eaf_header(&doc.header, xml)?;
         xml.write_parent_element("TIME_ORDER", &[], &None, doc.time_order.is_empty(), |xml| {
-            doc.time_order.iter().try_for_each(|slot| time_slot(slot, xml))
+            doc.time_order.iter().try_for_each(|slot| slot.write_leaf(xml))
         })?;
         doc.tiers.iter().try_for_each(|item| write_eaf_tier(item, xml))?;
-        doc.linguistic_types
-            .iter()
-            .try_for_each(|item| linguistic_type(item, xml))?;
-        doc.locales.iter().try_for_each(|item| write_eaf_locale(item, xml))?;
-        doc.languages
-            .iter()
-            .try_for_each(|item| write_eaf_language(item, xml))?;
-        doc.constraints
-            .iter()
-            .try_for_each(|item| write_eaf_constraint(item, xml))?;
+        doc.linguistic_types.iter().try_for_each(|item| item.write_leaf(xml))?;
+        doc.locales.iter().try_for_each(|item| item.write_leaf(xml))?;
+        doc.languages.iter().try_for_each(|item| item.write_leaf(xml))?;
+        doc.constraints.iter().try_for_each(|item| item.write_leaf(xml))?;
         doc.vocabularies
             .iter()
             .try_for_each(|item| write_eaf_vocabulary(item, xml))?;
-        doc.lexicon_refs.iter().try_for_each(|item| lexicon_ref(item, xml))?;
+        doc.lexicon_refs.iter().try_for_each(|item| item.write_leaf(xml))?;
         doc.ref_link_sets.iter().try_for_each(|item| ref_link_set(item, xml))?;
-        doc.external_refs.iter().try_for_each(|item| external_ref(item, xml))
+        doc.external_refs.iter().try_for_each(|item| item.write_leaf(xml))
     })
 }
 
@@ -151,41 +141,13 @@ fn write_eaf_header<W: Write>(header: &EafHeader<'_>, xml: &mut XmlOutput<'_, W>
     ];
     let empty = header.media.is_empty() && header.linked_files.is_empty() && header.properties.is_empty();
     xml.write_parent_element("HEADER", &pairs, &header.kept, empty, |xml| {
-        header
-            .media
-            .iter()
-            .try_for_each(|item| write_media_descriptor(item, xml))?;
-        for file in &header.linked_files {
-            let origin = file.time_origin.map(|ms| ms.to_string());
-            let pairs = [
-                ("ASSOCIATED_WITH", file.associated_with.as_deref()),
-                ("LINK_URL", Some(&*file.url)),
-                ("MIME_TYPE", Some(&*file.mime_type)),
-                ("RELATIVE_LINK_URL", file.relative_url.as_deref()),
-                ("TIME_ORIGIN", origin.as_deref()),
-            ];
-            xml.write_leaf_element("LINKED_FILE_DESCRIPTOR", &pairs, &file.kept)?;
-        }
+        header.media.iter().try_for_each(|item| item.write_leaf(xml))?;
+        header.linked_files.iter().try_for_each(|item| item.write_leaf(xml))?;
         header
             .properties
             .iter()
             .try_for_each(|item| write_eaf_property(item, xml))
     })
-}
-
-pub(super) fn write_media_descriptor<W: Write>(
-    media: &MediaDescriptor<'_>,
-    xml: &mut XmlOutput<'_, W>,
-) -> io::Result<()> {
-    let origin = media.time_origin.map(|ms| ms.to_string());
-    let pairs = [
-        ("EXTRACTED_FROM", media.extracted_from.as_deref()),
-        ("MEDIA_URL", Some(&*media.url)),
-        ("MIME_TYPE", Some(&*media.mime_type)),
-        ("RELATIVE_MEDIA_URL", media.relative_url.as_deref()),
-        ("TIME_ORIGIN", origin.as_deref()),
-    ];
-    xml.write_leaf_element("MEDIA_DESCRIPTOR", &pairs, &media.kept)
 }
 
 pub(super) fn write_eaf_property<W: Write>(property: &EafProperty<'_>, xml: &mut XmlOutput<'_, W>) -> io::Result<()> {
@@ -194,15 +156,6 @@ pub(super) fn write_eaf_property<W: Write>(property: &EafProperty<'_>, xml: &mut
         &[("NAME", property.name.as_deref())],
         &property.kept,
         &property.value,
-    )
-}
-
-pub(super) fn time_slot<W: Write>(slot: &TimeSlot<'_>, xml: &mut XmlOutput<'_, W>) -> io::Result<()> {
-    let value = slot.value.map(|value| value.to_string());
-    xml.write_leaf_element(
-        "TIME_SLOT",
-        &[("TIME_SLOT_ID", Some(&slot.id)), ("TIME_VALUE", value.as_deref())],
-        &slot.kept,
     )
 }
 
@@ -266,48 +219,6 @@ pub(super) fn write_eaf_annotation<W: Write>(
     })
 }
 
-pub(super) fn linguistic_type<W: Write>(kind: &LinguisticType<'_>, xml: &mut XmlOutput<'_, W>) -> io::Result<()> {
-    let pairs = [
-        ("CONSTRAINTS", kind.constraints.as_deref()),
-        ("CONTROLLED_VOCABULARY_REF", kind.vocabulary.as_deref()),
-        ("EXT_REF", kind.external_ref.as_deref()),
-        ("GRAPHIC_REFERENCES", flag_text(kind.graphic_references)),
-        ("LEXICON_REF", kind.lexicon_ref.as_deref()),
-        ("LINGUISTIC_TYPE_ID", Some(&*kind.id)),
-        ("TIME_ALIGNABLE", flag_text(kind.time_alignable)),
-    ];
-    xml.write_leaf_element("LINGUISTIC_TYPE", &pairs, &kind.kept)
-}
-
-pub(super) fn write_eaf_locale<W: Write>(locale: &EafLocale<'_>, xml: &mut XmlOutput<'_, W>) -> io::Result<()> {
-    let pairs = [
-        ("COUNTRY_CODE", locale.country.as_deref()),
-        ("LANGUAGE_CODE", Some(&*locale.language)),
-        ("VARIANT", locale.variant.as_deref()),
-    ];
-    xml.write_leaf_element("LOCALE", &pairs, &locale.kept)
-}
-
-pub(super) fn write_eaf_language<W: Write>(language: &EafLanguage<'_>, xml: &mut XmlOutput<'_, W>) -> io::Result<()> {
-    let pairs = [
-        ("LANG_DEF", language.definition.as_deref()),
-        ("LANG_ID", Some(&*language.id)),
-        ("LANG_LABEL", language.label.as_deref()),
-    ];
-    xml.write_leaf_element("LANGUAGE", &pairs, &language.kept)
-}
-
-pub(super) fn write_eaf_constraint<W: Write>(
-    constraint: &EafConstraint<'_>,
-    xml: &mut XmlOutput<'_, W>,
-) -> io::Result<()> {
-    let pairs = [
-        ("DESCRIPTION", constraint.description.as_deref()),
-        ("STEREOTYPE", Some(&*constraint.stereotype)),
-    ];
-    xml.write_leaf_element("CONSTRAINT", &pairs, &constraint.kept)
-}
-
 pub(super) fn write_eaf_vocabulary<W: Write>(cv: &EafVocabulary<'_>, xml: &mut XmlOutput<'_, W>) -> io::Result<()> {
     let pairs = [("CV_ID", Some(&*cv.id)), ("EXT_REF", cv.external_ref.as_deref())];
     let empty = cv.descriptions.is_empty() && cv.entries.is_empty();
@@ -337,20 +248,6 @@ pub(super) fn write_vocabulary_entry<W: Write>(
             xml.write_text_element("CVE_VALUE", &pairs, &value.kept, &value.value)
         })
     })
-}
-
-fn lexicon_ref<W: Write>(lexicon: &LexiconRef<'_>, xml: &mut XmlOutput<'_, W>) -> io::Result<()> {
-    let pairs = [
-        ("DATCAT_ID", lexicon.category_id.as_deref()),
-        ("DATCAT_NAME", lexicon.category_name.as_deref()),
-        ("LEXICON_ID", Some(&*lexicon.lexicon_id)),
-        ("LEXICON_NAME", Some(&*lexicon.lexicon_name)),
-        ("LEX_REF_ID", Some(&*lexicon.id)),
-        ("NAME", Some(&*lexicon.name)),
-        ("TYPE", Some(&*lexicon.kind)),
-        ("URL", Some(&*lexicon.url)),
-    ];
-    xml.write_leaf_element("LEXICON_REF", &pairs, &lexicon.kept)
 }
 
 fn ref_link_set<W: Write>(set: &RefLinkSet<'_>, xml: &mut XmlOutput<'_, W>) -> io::Result<()> {
@@ -396,13 +293,4 @@ fn ref_link<W: Write>(link: &RefLink<'_>, xml: &mut XmlOutput<'_, W>) -> io::Res
         ("REF_TYPE", link.kind.as_deref()),
     ]);
     xml.write_text_element(name, &pairs, &link.kept, &link.text)
-}
-
-pub(super) fn external_ref<W: Write>(reference: &ExternalRef<'_>, xml: &mut XmlOutput<'_, W>) -> io::Result<()> {
-    let pairs = [
-        ("EXT_REF_ID", Some(&*reference.id)),
-        ("TYPE", Some(&*reference.kind)),
-        ("VALUE", Some(&*reference.value)),
-    ];
-    xml.write_leaf_element("EXTERNAL_REF", &pairs, &reference.kept)
 }

@@ -21,6 +21,7 @@ mod back;
 mod eaf_check;
 mod eaf_fields;
 mod eaf_layout;
+mod eaf_leaves;
 mod eaf_output;
 mod eaf_read;
 mod eaf_write;

@@ -3,7 +3,9 @@
 use super::EafPatchWork;
 use crate::eaf::eaf_layout::EafLayout;
 use crate::eaf::eaf_output::{XmlOutput, render_eaf_elements};
-use crate::eaf::eaf_raw::{self, EafDocument};
+use crate::eaf::eaf_raw::{
+    self, EafConstraint, EafDocument, EafLanguage, EafLocale, ExternalRef, LinguisticType, MediaDescriptor,
+};
 use crate::eaf::eaf_write;
 use crate::eaf::style::EafSpelling;
 use crate::transcript::ControlledVocabulary;
@@ -36,7 +38,7 @@ impl EafPatchWork<'_, '_> {
             let indent = self.indent_in(header);
             let media = |document: &eaf_raw::EafDocument<'_>| {
                 let all = document.header.media.iter();
-                self.rendered(&indent, all, eaf_write::write_media_descriptor)
+                self.rendered(&indent, all, MediaDescriptor::write_leaf)
             };
             let descriptors = ChangedList {
                 before: media(old)?,
@@ -82,7 +84,7 @@ impl EafPatchWork<'_, '_> {
                 }
             };
         }
-        let kinds = both!(linguistic_types, eaf_write::linguistic_type);
+        let kinds = both!(linguistic_types, LinguisticType::write_leaf);
         self.patch_keyed_list(
             root,
             "LINGUISTIC_TYPE",
@@ -90,9 +92,9 @@ impl EafPatchWork<'_, '_> {
             kinds,
             &ROOT_CHILD_ORDER[..2],
         )?;
-        let locales = both!(locales, eaf_write::write_eaf_locale);
+        let locales = both!(locales, EafLocale::write_leaf);
         self.patch_keyed_list(root, "LOCALE", "LANGUAGE_CODE", locales, &ROOT_CHILD_ORDER[..3])?;
-        let languages = both!(languages, eaf_write::write_eaf_language);
+        let languages = both!(languages, EafLanguage::write_leaf);
         self.patch_keyed_list(root, "LANGUAGE", "LANG_ID", languages, &ROOT_CHILD_ORDER[..4])?;
         self.constraints(root, old, new, &ROOT_CHILD_ORDER[..5])?;
         if old.vocabularies != new.vocabularies {
@@ -105,7 +107,7 @@ impl EafPatchWork<'_, '_> {
                 self.patch_keyed_list(root, "CONTROLLED_VOCABULARY", "CV_ID", all, &ROOT_CHILD_ORDER[..6])?;
             }
         }
-        let references = both!(external_refs, eaf_write::external_ref);
+        let references = both!(external_refs, ExternalRef::write_leaf);
         self.patch_keyed_list(root, "EXTERNAL_REF", "EXT_REF_ID", references, &ROOT_CHILD_ORDER)
     }
 
@@ -177,7 +179,7 @@ impl EafPatchWork<'_, '_> {
             .collect();
         let all_constraints = new.constraints.iter();
         let all = all_constraints.filter(|constraint| needed.iter().any(|name| constraint.stereotype == name.as_str()));
-        let parts = self.rendered(&self.indent_in(root), all, eaf_write::write_eaf_constraint)?;
+        let parts = self.rendered(&self.indent_in(root), all, EafConstraint::write_leaf)?;
         let added = ChangedList {
             before: Vec::new(),
             after: parts,

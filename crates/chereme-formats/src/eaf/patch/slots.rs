@@ -3,7 +3,6 @@
 use super::{EafPatchWork, SlotReferences, annotation_end_millis, is_alignable};
 use crate::eaf::eaf_output::render_eaf_elements;
 use crate::eaf::eaf_raw::{AnnotationAnchor, TimeSlot};
-use crate::eaf::eaf_write;
 use crate::transcript::AnnotationAddress;
 use chereme_sign::TierStereotype;
 use std::collections::{BTreeMap, HashMap};
@@ -251,7 +250,7 @@ impl EafPatchWork<'_, '_> {
                 value: Some(time),
                 ..TimeSlot::default()
             };
-            let block = render_eaf_elements(self.style, &indent, |xml| eaf_write::time_slot(&slot, xml))?;
+            let block = render_eaf_elements(self.style, &indent, |xml| slot.write_leaf(xml))?;
             let mut earlier_slots = (0..slots.names.len()).rev().filter(|at| !gone[*at]);
             let before = earlier_slots.find(|at| slots.values[*at].is_some_and(|value| value <= time));
             let before = before.map(|at| slots.elements[at]);
