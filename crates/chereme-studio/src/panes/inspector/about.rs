@@ -11,7 +11,7 @@ use chereme_sign::ComponentInventory;
 use eframe::egui::{CollapsingHeader, Id, Label, RichText, Sense, Ui, vec2};
 
 use super::inspector_edit::{
-    name_and_value, show_editable_line, show_editable_notes, show_inspector_choice, show_inspector_grid,
+    name_and_value, new_change, show_editable_line, show_editable_notes, show_inspector_choice, show_inspector_grid,
     show_line_with_completion, show_part_title,
 };
 use super::inspector_ui::{show_inspector_lines, show_thing_link};
@@ -39,48 +39,29 @@ pub(super) fn show_recording_details(
     let key = |what: &str| Id::unique(("recording", row.id, what.to_owned()));
     show_inspector_grid(ui, "recording", |ui| {
         if let Some(name) = show_editable_line(ui, seen, key("name"), words::NAME, &row.name) {
-            let name = Some(name);
-            change(
-                out,
-                RecordingChange {
-                    name,
-                    ..RecordingChange::default()
-                },
-            );
+            change(out, new_change(|asked: &mut RecordingChange| asked.name = Some(name)));
         }
         let signers = &seen.snapshot.overview.signers;
         let candidates = |typed: &str| fitting_candidates(signers.iter().map(|signer| signer.name.as_str()), typed);
         let now = row.signer.clone().unwrap_or_default();
         if let Some(name) = show_line_with_completion(ui, seen, key("signer"), words::SIGNER, &now, &candidates) {
-            let signer = Some(none_if_blank(name));
             change(
                 out,
-                RecordingChange {
-                    signer,
-                    ..RecordingChange::default()
-                },
+                new_change(|asked: &mut RecordingChange| asked.signer = Some(none_if_blank(name))),
             );
         }
         let now = row.licence.clone().unwrap_or_default();
         if let Some(text) = show_editable_line(ui, seen, key("licence"), words::LICENCE, &now) {
-            let licence = Some(none_if_blank(text));
             change(
                 out,
-                RecordingChange {
-                    licence,
-                    ..RecordingChange::default()
-                },
+                new_change(|asked: &mut RecordingChange| asked.licence = Some(none_if_blank(text))),
             );
         }
         let now = row.notes.clone().unwrap_or_default();
         if let Some(text) = show_editable_notes(ui, seen, key("notes"), &now) {
-            let notes = Some(none_if_blank(text));
             change(
                 out,
-                RecordingChange {
-                    notes,
-                    ..RecordingChange::default()
-                },
+                new_change(|asked: &mut RecordingChange| asked.notes = Some(none_if_blank(text))),
             );
         }
     });
@@ -233,14 +214,7 @@ pub(super) fn show_signer_details(ui: &mut Ui, seen: &PaneInput<'_>, row: &Perso
     show_inspector_grid(ui, "signer", |ui| {
         let key = Id::unique(("signer name", row.id));
         if let Some(name) = show_editable_line(ui, seen, key, words::NAME, &row.name) {
-            let name = Some(name);
-            change(
-                out,
-                SignerChange {
-                    name,
-                    ..SignerChange::default()
-                },
-            );
+            change(out, new_change(|asked: &mut SignerChange| asked.name = Some(name)));
         }
         let all: Vec<(Option<String>, String)> = [
             (None, words::UNKNOWN),
@@ -254,25 +228,17 @@ pub(super) fn show_signer_details(ui: &mut Ui, seen: &PaneInput<'_>, row: &Perso
                 "left" => BodySide::Left,
                 _ => BodySide::Right,
             };
-            let handedness = Some(hand.map(side));
             change(
                 out,
-                SignerChange {
-                    handedness,
-                    ..SignerChange::default()
-                },
+                new_change(|asked: &mut SignerChange| asked.handedness = Some(hand.map(side))),
             );
         }
         let key = Id::unique(("signer notes", row.id));
         let now = row.notes.clone().unwrap_or_default();
         if let Some(text) = show_editable_notes(ui, seen, key, &now) {
-            let notes = Some(none_if_blank(text));
             change(
                 out,
-                SignerChange {
-                    notes,
-                    ..SignerChange::default()
-                },
+                new_change(|asked: &mut SignerChange| asked.notes = Some(none_if_blank(text))),
             );
         }
     });
@@ -292,22 +258,17 @@ fn show_person_details(ui: &mut Ui, seen: &PaneInput<'_>, person: &PersonContent
             let remove_aliases = gone.cloned().collect();
             change(
                 out,
-                PersonChange {
-                    remove_aliases,
-                    add_aliases: wanted,
-                    ..PersonChange::default()
-                },
+                new_change(|asked: &mut PersonChange| {
+                    asked.remove_aliases = remove_aliases;
+                    asked.add_aliases = wanted;
+                }),
             );
         }
         let now = attributes_line(&person.attributes);
         if let Some(text) = show_editable_line(ui, seen, key("attributes"), words::ATTRIBUTES, &now) {
-            let attributes = changed_attributes(&person.attributes, &text);
             change(
                 out,
-                PersonChange {
-                    attributes,
-                    ..PersonChange::default()
-                },
+                new_change(|asked: &mut PersonChange| asked.attributes = changed_attributes(&person.attributes, &text)),
             );
         }
         if let Some(first) = person.attributes.first() {
@@ -320,10 +281,7 @@ fn show_person_details(ui: &mut Ui, seen: &PaneInput<'_>, person: &PersonContent
             if let Some(audience) = show_inspector_choice(ui, seen, words::ATTRIBUTES_SEEN_BY, &first.audience, &all) {
                 change(
                     out,
-                    PersonChange {
-                        audience: Some(audience),
-                        ..PersonChange::default()
-                    },
+                    new_change(|asked: &mut PersonChange| asked.audience = Some(audience)),
                 );
             }
         }
@@ -430,25 +388,14 @@ pub(super) fn show_sign_details(
     show_inspector_grid(ui, "sign", |ui| {
         let key = Id::unique(("sign gloss", sign.id));
         if let Some(gloss) = show_editable_line(ui, seen, key, words::GLOSS, &sign.gloss) {
-            let gloss = Some(gloss);
-            change(
-                out,
-                SignChange {
-                    gloss,
-                    ..SignChange::default()
-                },
-            );
+            change(out, new_change(|asked: &mut SignChange| asked.gloss = Some(gloss)));
         }
         let key = Id::unique(("sign notes", sign.id));
         let now = sign.notes.clone().unwrap_or_default();
         if let Some(text) = show_editable_notes(ui, seen, key, &now) {
-            let notes = Some(none_if_blank(text));
             change(
                 out,
-                SignChange {
-                    notes,
-                    ..SignChange::default()
-                },
+                new_change(|asked: &mut SignChange| asked.notes = Some(none_if_blank(text))),
             );
         }
         for (language, text) in &sign.texts {
@@ -457,13 +404,11 @@ pub(super) fn show_sign_details(
                 ui.label(text);
                 let tip = fill_text_braces(seen.say_text(words::REMOVE), &[("what", text)]);
                 if ui.small_button("×").on_hover_text(tip).clicked() {
-                    let remove_texts = vec![(language.clone(), text.clone())];
                     change(
                         out,
-                        SignChange {
-                            remove_texts,
-                            ..SignChange::default()
-                        },
+                        new_change(|asked: &mut SignChange| {
+                            asked.remove_texts = vec![(language.clone(), text.clone())]
+                        }),
                     );
                 }
             });
@@ -472,13 +417,9 @@ pub(super) fn show_sign_details(
         let key = Id::unique(("sign text", sign.id));
         let language = seen.language.language_code();
         if let Some(text) = show_editable_line(ui, seen, key, words::TEXT_NEW, "") {
-            let add_texts = vec![(language.to_owned(), text)];
             change(
                 out,
-                SignChange {
-                    add_texts,
-                    ..SignChange::default()
-                },
+                new_change(|asked: &mut SignChange| asked.add_texts = vec![(language.to_owned(), text)]),
             );
         }
     });

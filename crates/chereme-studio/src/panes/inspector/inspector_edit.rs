@@ -7,6 +7,13 @@ use crate::panes::complete_pane::{CompletionLine, show_completion_line};
 use crate::script::script_edit;
 use crate::words::{InterfaceText, inspector as words};
 
+/// Returns a change of the properties that `set` sets.
+pub(super) fn new_change<T: Default>(set: impl FnOnce(&mut T)) -> T {
+    let mut change = T::default();
+    set(&mut change);
+    change
+}
+
 /// Shows a name and a value.
 pub(super) fn name_and_value(ui: &mut Ui, seen: &PaneInput<'_>, text: InterfaceText, value: &str) {
     let name = RichText::new(seen.say_text(text)).weak();

@@ -6,7 +6,9 @@ use chereme_corpus::{
 use eframe::egui::{Id, Ui};
 
 use super::inspector_data;
-use super::inspector_edit::{name_and_value, show_editable_line, show_inspector_choice, show_inspector_grid};
+use super::inspector_edit::{
+    name_and_value, new_change, show_editable_line, show_inspector_choice, show_inspector_grid,
+};
 use crate::command::CommandOutbox;
 use crate::context::PaneInput;
 use crate::words::{fill_text_braces, inspector as words};
@@ -25,24 +27,16 @@ pub(super) fn show_tier_details(
     show_inspector_grid(ui, "tier", |ui| {
         let key = Id::unique(("tier name", row.id));
         if let Some(name) = show_editable_line(ui, seen, key, words::NAME, &row.name) {
-            let name = Some(name);
             change(
                 out,
-                TierPropertyChange {
-                    name,
-                    ..TierPropertyChange::default()
-                },
+                new_change(|asked: &mut TierPropertyChange| asked.name = Some(name)),
             );
         }
         name_and_value(ui, seen, words::ROLE, &row.role.role_name());
         if let Some(hand) = show_inspector_choice(ui, seen, words::HAND, &row.hand, &hand_choices(seen)) {
-            let hand = Some(hand);
             change(
                 out,
-                TierPropertyChange {
-                    hand,
-                    ..TierPropertyChange::default()
-                },
+                new_change(|asked: &mut TierPropertyChange| asked.hand = Some(hand)),
             );
         }
         if let Some(inventory) = show_inspector_choice(
@@ -57,13 +51,9 @@ pub(super) fn show_tier_details(
                 Some(it) => TierValueSource::Inventory(it.inventory.id.clone()),
                 None => TierValueSource::Free,
             };
-            let values = Some(tier_values);
             change(
                 out,
-                TierPropertyChange {
-                    values,
-                    ..TierPropertyChange::default()
-                },
+                new_change(|asked: &mut TierPropertyChange| asked.values = Some(tier_values)),
             );
         }
         let above = seen.snapshot.open.as_ref().and_then(|open| {
