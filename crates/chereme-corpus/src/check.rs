@@ -21,7 +21,7 @@ use crate::error::{CorpusResult, DatabaseFailureCause};
 use crate::inventories;
 use crate::movement::{ChannelGroup, MotionTrack};
 use crate::notation;
-use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::progress::{ProgressReceiver, ProgressUnit};
 use crate::search::index::SearchIndex;
 use crate::tokens;
 use crate::track::{self, TrackKind, TrackRow};
@@ -233,12 +233,7 @@ impl CheckRun<'_, '_> {
         let quick = matches!(what, "blocks" | "notations" | "skeletons");
         if !quick || count.is_multiple_of(64) {
             let (task, done) = (what, *count);
-            self.progress.report_step(ProgressStep {
-                task,
-                done,
-                total: None,
-                unit: ProgressUnit::Items,
-            })?;
+            self.progress.report_amount(ProgressUnit::Items, task, done, None)?;
         }
         Ok(())
     }
@@ -416,12 +411,8 @@ impl CheckRun<'_, '_> {
                 &[group],
                 &(0..track.motion_frame_count()),
                 |_, first, columns| {
-                    self.progress.report_step(ProgressStep {
-                        task: "movement",
-                        done: first as u64,
-                        total: Some(track.motion_frame_count() as u64),
-                        unit: ProgressUnit::Frames,
-                    })?;
+                    self.progress
+                        .report_frames("movement", first, track.motion_frame_count())?;
                     let frames = columns.first().map_or(0, FrameNumberColumn::len);
                     if first != next {
                         let what = format!("frames {next} to {first} of {} are missing", group.channel_group_name());

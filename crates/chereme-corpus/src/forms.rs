@@ -15,7 +15,7 @@ use crate::db::signs::{self, TokenRow};
 use crate::db::stored_recordings::{self, SourceFileRow};
 use crate::error::{CorpusError, CorpusResult};
 use crate::lexicon::{LexiconScope, keep_scope_rows};
-use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::progress::{ProgressReceiver, ProgressUnit};
 use crate::suggest::{self, CodingReader};
 
 /// The treatment of an empty cell.
@@ -477,12 +477,7 @@ fn of_codings(
     let mut coded_tokens = Vec::new();
     for (done, token) in tokens.into_iter().enumerate() {
         if done % FORM_REPORT_STEP_TOKENS == 0 {
-            progress.report_step(ProgressStep {
-                task: "codings",
-                done: done as u64,
-                total: Some(all),
-                unit: ProgressUnit::Items,
-            })?;
+            progress.report_amount(ProgressUnit::Items, "codings", done as u64, Some(all))?;
         }
         let coding = reader.coding_of(&token)?;
         // A sign without any coding has no form to compare.

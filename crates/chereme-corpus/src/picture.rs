@@ -33,7 +33,7 @@ use crate::film::{WrittenFilmShape, write_film};
 use crate::inventories;
 use crate::movement::{ChannelGroup, MotionTrack};
 use crate::notation::{self, TokenNotation};
-use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::progress::ProgressReceiver;
 use crate::recombine::RecombinationResult;
 use crate::starter::built_in_body;
 
@@ -605,14 +605,7 @@ fn draw_scenes(
     options: &PictureOptions,
     progress: &mut ProgressReceiver<'_>,
 ) -> CorpusResult<DrawnPicture> {
-    let mut report = |done: usize, total: usize| {
-        progress.report_step(ProgressStep {
-            task: "drawing",
-            done: done as u64,
-            total: Some(total as u64),
-            unit: ProgressUnit::Frames,
-        })
-    };
+    let mut report = |done: usize, total: usize| progress.report_frames("drawing", done, total);
     let kind = lowercase_extension(to);
     let (bytes, frames) = match (kind.as_str(), scenes) {
         ("png", [scene]) => {

@@ -67,17 +67,33 @@ impl<'a> ProgressReceiver<'a> {
         }
     }
 
+    /// Reports the amount of a task that is done, and the total amount if it is known.
+    ///
+    /// # Errors
+    /// [`CorpusError::Stopped`] if the receiver asks to stop.
+    pub fn report_amount(&mut self, unit: ProgressUnit, task: &str, done: u64, total: Option<u64>) -> CorpusResult<()> {
+        self.report_step(ProgressStep {
+            task,
+            done,
+            total,
+            unit,
+        })
+    }
+
     /// Reports that `done` of all items of a task are done.
     ///
     /// # Errors
     /// [`CorpusError::Stopped`] if the receiver asks to stop.
     pub fn report_items(&mut self, task: &str, done: usize, total: usize) -> CorpusResult<()> {
-        self.report_step(ProgressStep {
-            task,
-            done: done as u64,
-            total: Some(total as u64),
-            unit: ProgressUnit::Items,
-        })
+        self.report_amount(ProgressUnit::Items, task, done as u64, Some(total as u64))
+    }
+
+    /// Reports that `done` of all frames of a task are done.
+    ///
+    /// # Errors
+    /// [`CorpusError::Stopped`] if the receiver asks to stop.
+    pub fn report_frames(&mut self, task: &str, done: usize, total: usize) -> CorpusResult<()> {
+        self.report_amount(ProgressUnit::Frames, task, done as u64, Some(total as u64))
     }
 }
 

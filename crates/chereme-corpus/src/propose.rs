@@ -23,7 +23,7 @@ use crate::db::stored_recordings;
 use crate::db::stored_tiers::{self, PROPOSAL_TIER_SUFFIX, proposed_for};
 use crate::detect::{recordings_of_scope, span_overlaps_times};
 use crate::error::{CorpusError, CorpusResult};
-use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::progress::{ProgressReceiver, ProgressUnit};
 use crate::search::{SearchHit, SearchOptions};
 use crate::words::effect::OperationEffect;
 
@@ -310,12 +310,7 @@ impl Corpus {
         let mut unread: BTreeMap<String, Vec<&str>> = BTreeMap::new();
         let total = Some(wanted.len() as u64);
         for (done, (hit, components)) in wanted.values().enumerate() {
-            progress.report_step(ProgressStep {
-                task: &hit.gloss,
-                done: done as u64,
-                total,
-                unit: ProgressUnit::Items,
-            })?;
+            progress.report_amount(ProgressUnit::Items, &hit.gloss, done as u64, total)?;
             if let Some(recording) = self.still_take(hit)? {
                 still.insert(recording);
                 report.unread += 1;

@@ -20,7 +20,7 @@ use crate::db::stored_search::search_answers;
 use crate::db::stored_tiers::{self, AnnotationRow, TierRow};
 use crate::error::{CorpusError, CorpusResult};
 use crate::inventories::{self, StoredInventory};
-use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::progress::{ProgressReceiver, ProgressUnit};
 use crate::words::effect::OperationEffect;
 use counted_reading::AnnotatedGloss;
 
@@ -122,12 +122,7 @@ fn report_token_step(progress: &mut ProgressReceiver<'_>, done: usize) -> Corpus
     if done % 256 != 255 {
         return Ok(());
     }
-    progress.report_step(ProgressStep {
-        task: "tokens",
-        done: done as u64,
-        total: None,
-        unit: ProgressUnit::Items,
-    })
+    progress.report_amount(ProgressUnit::Items, "tokens", done as u64, None)
 }
 
 fn write_token(

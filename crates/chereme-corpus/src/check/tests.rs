@@ -1,6 +1,7 @@
 //! Tests that damaged rows are named, and that the rest of the file is checked all the same.
 
 use super::*;
+use crate::progress::ProgressStep;
 use crate::{
     CorpusError, ExportWhat, ImportOptions, SearchOptions, TierSelection, ValueSearch, ignore_progress_step,
     unpack_starter,

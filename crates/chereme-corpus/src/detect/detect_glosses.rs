@@ -12,7 +12,7 @@ use crate::annotate::{AnnotateOptions, AnnotationAction, NewTier, TierRequestNam
 use crate::db::{signs, stored_recordings, stored_tiers};
 use crate::error::CorpusResult;
 use crate::import::{FileStatus, ImportCompletion, ImportReport};
-use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::progress::{ProgressReceiver, ProgressUnit};
 use crate::report_finding::ReportFinding;
 
 /// A cost of a sign at which every activity is one sign.
@@ -35,12 +35,7 @@ fn add_glosses_from_names(
         let (FileStatus::Imported, Some(name)) = (file.status, &file.recording) else {
             continue;
         };
-        progress.report_step(ProgressStep {
-            task: name,
-            done: done as u64,
-            total: Some(total),
-            unit: ProgressUnit::Items,
-        })?;
+        progress.report_amount(ProgressUnit::Items, name, done as u64, Some(total))?;
         let row = address::find_recording_by_name(connection, &RowName::Text(name.clone()))?;
         let moves = stored_recordings::body_track(connection, row.id)?.is_some();
         // Tokens that came with a file say more than its name.

@@ -14,7 +14,7 @@ use super::movement_form::MovementForm;
 use crate::address::RecordingStretch;
 use crate::error::{CorpusError, CorpusResult};
 use crate::movement::{BLOCK_FRAMES, ChannelGroup, MotionTrack};
-use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::progress::ProgressReceiver;
 
 /// Returns a note if the movement of a whole recording does not begin with it: a BVH file begins with its movement.
 pub(crate) fn late_start(connection: &Connection, stretch: &RecordingStretch) -> CorpusResult<Option<String>> {
@@ -62,12 +62,7 @@ pub(crate) fn write_bvh_stretch(
                 columns,
             })
             .map_err(fault)?;
-        progress.report_step(ProgressStep {
-            task: &stretch.recording.name,
-            done: (block_frames.end - frames.start) as u64,
-            total: Some(frames.len() as u64),
-            unit: ProgressUnit::Frames,
-        })?;
+        progress.report_frames(&stretch.recording.name, block_frames.end - frames.start, frames.len())?;
         first += BLOCK_FRAMES;
     }
     writer.finish_bvh_writing().map_err(fault)?;

@@ -30,7 +30,7 @@ use crate::db::stored_tiers;
 use crate::db::stored_tracks::{self, TrackKind};
 use crate::error::{CorpusError, CorpusResult};
 use crate::movement::{self, BLOCK_FRAMES, ChannelGroup, MotionTrack};
-use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::progress::{ProgressReceiver, ProgressUnit};
 use crate::report_finding::ReportFinding;
 
 pub(super) use odd::report_odd_frames;
@@ -76,12 +76,7 @@ pub(super) fn import_bvh(job: &mut ImportJob<'_>, progress: &mut ProgressReceive
     while more {
         let first = usize::try_from(block.first_frame).unwrap_or(usize::MAX);
         movement::store_block_groups(job.connection, track, &groups, first, block.frames, &block.columns)?;
-        progress.report_step(ProgressStep {
-            task: &job.file_name,
-            done: reader.bytes_read(),
-            total: Some(size),
-            unit: ProgressUnit::Bytes,
-        })?;
+        progress.report_amount(ProgressUnit::Bytes, &job.file_name, reader.bytes_read(), Some(size))?;
         more = reader.next_block(&mut block).map_err(bvh_import_error)?;
         if more {
             bones.sample_motion_block(&block);

@@ -9,7 +9,7 @@ use sha2::{Digest, Sha256};
 use super::{FileReport, ImportJob, import_captured, import_whole};
 use crate::db::stored_motion::to_hex_text;
 use crate::error::{CorpusError, CorpusResult};
-use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::progress::{ProgressReceiver, ProgressUnit};
 
 /// The largest number of files for one film.
 const MAX_POINT_FILES: usize = 2_000_000;
@@ -93,12 +93,7 @@ pub(super) fn import_point_files(
                 .push_keypoint_document(Some(*number), &bytes)
                 .map_err(with_place)?;
             if done % 64 == 0 {
-                progress.report_step(ProgressStep {
-                    task: &job.file_name,
-                    done,
-                    total: Some(total),
-                    unit: ProgressUnit::Frames,
-                })?;
+                progress.report_amount(ProgressUnit::Frames, &job.file_name, done, Some(total))?;
             }
         }
         job.hash = to_hex_text(&digest.finalize());

@@ -24,7 +24,7 @@ use crate::db::stored_columns::{RecordOrigin, ValueState};
 use crate::db::stored_recordings::{self, SourceFileRow};
 use crate::error::{CorpusError, CorpusResult};
 use crate::inventories;
-use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::progress::{ProgressReceiver, ProgressUnit};
 use crate::report_finding::ReportFinding;
 
 /// The number of names of values that a finding lists.
@@ -99,12 +99,7 @@ pub(super) fn import_lexicon(job: &mut ImportJob<'_>, progress: &mut ProgressRec
         }
         if done % 256 == 0 {
             let done = done as u64;
-            progress.report_step(ProgressStep {
-                task: &job.file_name,
-                done,
-                total,
-                unit: ProgressUnit::Items,
-            })?;
+            progress.report_amount(ProgressUnit::Items, &job.file_name, done, total)?;
         }
     }
     signs.leave_emptied(job)?;

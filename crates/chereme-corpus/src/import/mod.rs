@@ -48,7 +48,7 @@ use crate::db::stored_recordings::{self, SourceFileRow};
 use crate::error::{CorpusError, CorpusResult};
 use crate::inventories::{self, StoredInventory};
 use crate::paths::legible_path_text;
-use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::progress::{ProgressReceiver, ProgressUnit};
 use crate::report_finding::ReportFinding;
 
 pub use import_joining::{FileJoin, FileJoining, JoinReason, JoinedFile, JoinedRecording};
@@ -197,12 +197,7 @@ impl ImportJob<'_> {
     /// Reports progress; fails if the caller asks the work to stop.
     fn report_progress(&mut self, progress: &mut ProgressReceiver<'_>) -> CorpusResult<()> {
         self.steps += 1;
-        progress.report_step(ProgressStep {
-            task: &self.file_name,
-            done: self.steps,
-            total: None,
-            unit: ProgressUnit::Items,
-        })
+        progress.report_amount(ProgressUnit::Items, &self.file_name, self.steps, None)
     }
 
     /// Returns a report that nothing changed, if a file with the same bytes was imported before, from any path, and no
@@ -404,12 +399,12 @@ impl ImportRun<'_> {
                     continue;
                 }
             };
-            progress.report_step(ProgressStep {
-                task: FILE_READERS[reader].holds,
-                done: before[reader],
-                total: Some(total(reader).count() as u64),
-                unit: ProgressUnit::Items,
-            })?;
+            progress.report_amount(
+                ProgressUnit::Items,
+                FILE_READERS[reader].holds,
+                before[reader],
+                Some(total(reader).count() as u64),
+            )?;
             before[reader] += 1;
             // A refused file must leave nothing behind, while the others stay.
             connection.execute_batch("SAVEPOINT file")?;

@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 
 use super::*;
 use crate::export::{ExportOptions, ExportWhat};
-use crate::progress::ignore_progress_step;
+use crate::progress::{ProgressStep, ignore_progress_step};
 use crate::{ListFilter, ListKind, SearchOptions};
 
 /// A BVH file of one joint and two frames, 0.2 s long.

@@ -1,6 +1,7 @@
 //! Tests of maps of small lexicons.
 
 use super::*;
+use crate::progress::ProgressStep;
 use crate::{ImportOptions, ignore_progress_step};
 
 /// Returns a corpus with two families of four signs each: fists at the chin, flat hands at the chest.

@@ -33,7 +33,7 @@ use crate::db::stored_merge::{self as db, MergeSide, RowImage, TableRowKey};
 use crate::db::{edits, signs, stored_recordings, stored_studies as study_rows, stored_tiers, stored_tracks};
 use crate::error::{CorpusError, CorpusResult};
 use crate::inventories;
-use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::progress::{ProgressReceiver, ProgressUnit};
 use crate::tokens;
 use crate::words::effect::OperationEffect;
 
@@ -220,12 +220,7 @@ impl MergeWork<'_> {
                 for key in waiting {
                     done += 1;
                     if done.is_multiple_of(256) {
-                        progress.report_step(ProgressStep {
-                            task: "merging",
-                            done,
-                            total: Some(touched.len() as u64),
-                            unit: ProgressUnit::Items,
-                        })?;
+                        progress.report_amount(ProgressUnit::Items, "merging", done, Some(touched.len() as u64))?;
                     }
                     if self.theirs.find_row_image(table, &key.1)?.is_none() {
                         gone.push(key);

@@ -29,14 +29,7 @@ pub(super) fn draw_points_file(
     options: &PictureOptions,
     progress: &mut ProgressReceiver<'_>,
 ) -> CorpusResult<DrawnPicture> {
-    let mut report = |done: usize, total: usize| {
-        progress.report_step(ProgressStep {
-            task: "drawing",
-            done: done as u64,
-            total: Some(total as u64),
-            unit: ProgressUnit::Frames,
-        })
-    };
+    let mut report = |done: usize, total: usize| progress.report_frames("drawing", done, total);
     let mut hear = |done: usize, total: usize| match report(done, total) {
         Ok(()) => ControlFlow::Continue(()),
         Err(_) => ControlFlow::Break(()),

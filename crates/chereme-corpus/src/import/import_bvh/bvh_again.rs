@@ -58,12 +58,7 @@ pub(super) fn read_movement_again(
                 let (frames, columns) = (block.frames, &block.columns);
                 movement::store_block_groups(job.connection, row.id, &groups, first, frames, columns)?;
             }
-            progress.report_step(ProgressStep {
-                task: &job.file_name,
-                done: reader.bytes_read(),
-                total: Some(size),
-                unit: ProgressUnit::Bytes,
-            })?;
+            progress.report_amount(ProgressUnit::Bytes, &job.file_name, reader.bytes_read(), Some(size))?;
             more = reader.next_block(&mut block).map_err(bvh_import_error)?;
         }
     }

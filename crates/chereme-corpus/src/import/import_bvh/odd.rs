@@ -97,12 +97,7 @@ fn find_recording_lapses(
         lapses.repeated += clip_lapses.repeated;
         lapses.moving += clip_lapses.moving;
         lapses.bends |= clip_lapses.bends;
-        progress.report_step(ProgressStep {
-            task: &job.file_name,
-            done: core.end as u64,
-            total: Some(sound.end as u64),
-            unit: ProgressUnit::Frames,
-        })?;
+        progress.report_frames(&job.file_name, core.end, sound.end)?;
     }
     Ok(lapses)
 }

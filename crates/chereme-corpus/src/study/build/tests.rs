@@ -2,6 +2,7 @@ use std::collections::BTreeMap;
 
 use super::*;
 use crate::import::ImportOptions;
+use crate::progress::ProgressStep;
 use crate::progress::ignore_progress_step;
 use crate::study::{StudyRequest, study_plan};
 
