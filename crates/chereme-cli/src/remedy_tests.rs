@@ -154,6 +154,7 @@ fn remedies_of_the_command_line_are_typed_as_such() {
                 .next();
             let of_choice = choice.is_some_and(|opening| opening.trim().starts_with("RemedyChoice::"));
             let is_typed = opened.ends_with("ErrorRemedy::command_remedy(")
+                || opened.ends_with(".with_command_advice(")
                 || opened.ends_with("ErrorRemedy::Command(")
                 || of_choice && choice.is_some_and(|opening| !opening.contains(';'));
             match names_the_command_line(&text) {

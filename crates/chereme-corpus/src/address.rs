@@ -247,9 +247,7 @@ fn missing_sign_error(gloss: &str, near: Option<&str>) -> CorpusError {
     CorpusError::from_wrong_message(format!("no sign is called {gloss:?}"))
         .with_error_place(gloss)
         .with_meant_name(meant_name_slip(gloss, near))
-        .with_advice(ErrorRemedy::command_remedy(
-            "`chereme list CORPUS signs` lists the glosses",
-        ))
+        .with_command_advice("`chereme list CORPUS signs` lists the glosses")
 }
 
 fn citation(connection: &Connection, sign: i64, address: &CorpusAddress) -> CorpusResult<TokenRow> {
@@ -324,9 +322,7 @@ pub(crate) fn find_recording_by_name(connection: &Connection, name: &RowName) ->
                 CorpusError::from_wrong_message(format!("no recording is called {text:?}"))
                     .with_error_place(text)
                     .with_meant_name(meant_name_slip(text, near))
-                    .with_advice(ErrorRemedy::command_remedy(
-                        "`chereme list CORPUS recordings` lists them",
-                    )),
+                    .with_command_advice("`chereme list CORPUS recordings` lists them"),
             )
         }
     }

@@ -97,11 +97,10 @@ impl Corpus {
                 let takes = takes.iter().map(|take| take.name.as_str());
                 let near = did_you_mean(nearest_candidate(wanted, signers.chain(takes)));
                 return Err(
-                    CorpusError::from_wrong_message(format!("{wanted:?} names nobody's body{near}")).with_advice(
-                        ErrorRemedy::command_remedy(
+                    CorpusError::from_wrong_message(format!("{wanted:?} names nobody's body{near}"))
+                        .with_command_advice(
                             "write the name of a signer or a recording; `chereme list CORPUS signers` lists them",
                         ),
-                    ),
                 );
             }
         }

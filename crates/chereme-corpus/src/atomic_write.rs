@@ -14,10 +14,7 @@ pub(crate) fn write_atomically(
     fill: impl FnOnce(&mut BufWriter<File>) -> CorpusResult<()>,
 ) -> CorpusResult<u64> {
     if !force && to.exists() {
-        return Err(CorpusError::from_file_failure(
-            to,
-            std::io::ErrorKind::AlreadyExists.into(),
-        ));
+        return Err(CorpusError::from_existing_file(to));
     }
     check_folder(to)?;
     remove_leftovers(to);

@@ -6,7 +6,6 @@ use chereme_formats::compare::{self, MergeConflict, MergedTranscript, Transcript
 use chereme_formats::eaf::{self, AnnotationTranscript, eaf_document_from_transcript, eaf_raw, patch_eaf};
 use chereme_formats::table::annotations;
 use chereme_formats::{ImportFinding, subtitles, textgrid};
-use chereme_sign::ErrorRemedy;
 use serde::Serialize;
 
 use crate::Corpus;
@@ -61,9 +60,7 @@ impl CompareSide {
             Self::File { name, bytes } => read_compared_document(name, bytes).map(|parsed| parsed.0),
             Self::Recording(address) => Err(CorpusError::from_wrong_message("a recording is in a corpus")
                 .with_error_place(address.to_string())
-                .with_advice(ErrorRemedy::command_remedy(
-                    "name the corpus first: `chereme diff CORPUS recording:1 recording:2`",
-                ))),
+                .with_command_advice("name the corpus first: `chereme diff CORPUS recording:1 recording:2`")),
         };
         Ok(compare::diff_transcripts(&read(self)?, &read(other)?))
     }
@@ -119,9 +116,9 @@ pub fn merge_files(base: Option<(&str, &[u8])>, mine: (&str, &[u8]), theirs: (&s
             return Err(
                 CorpusError::from_wrong_message("a merged file cannot be written in the format of this one")
                     .with_error_place(mine.0)
-                    .with_advice(ErrorRemedy::command_remedy(
+                    .with_command_advice(
                         "import it into a corpus, then the other with `chereme import CORPUS FILE --merge`",
-                    )),
+                    ),
             );
         }
         AnnotationFileFormat::Subtitles => {

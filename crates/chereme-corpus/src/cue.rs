@@ -9,7 +9,6 @@ use chereme_compose::recipe::{CueSettings, RecipeNode};
 use chereme_compose::units::{HandChoice, RecipeFactor};
 use chereme_compose::{PhaseRule, RECIPE_TREE_VERSION};
 use chereme_motion::RecordingInstant;
-use chereme_sign::ErrorRemedy;
 use chereme_sign::cue::{self, CuedUtterance, PhoneAlphabet, UtteranceError};
 use serde::Serialize;
 use serde_json::json;
@@ -126,7 +125,7 @@ pub fn cue_keys_of_file(path: &Path, tier: Option<&str>, options: &KeysOptions) 
         let text = format!("the tier {name:?} has nothing to cue");
         return Err(CorpusError::from_wrong_message(text)
             .with_error_place(path.display().to_string())
-            .with_advice(ErrorRemedy::command_remedy("name one with --tier")));
+            .with_command_advice("name one with --tier"));
     }
     keys.tier = Some(name);
     keys.alphabet = Some(read.alphabet.alphabet_name()).filter(|_| keys.words.is_empty());
@@ -218,7 +217,7 @@ pub(crate) fn nothing_to_cue(text: &str) -> CorpusError {
         begin.push('…');
     }
     CorpusError::from_wrong_message(format!("there is nothing to cue in {begin:?}"))
-        .with_advice(ErrorRemedy::command_remedy("write words, or phones with --phones"))
+        .with_command_advice("write words, or phones with --phones")
 }
 
 /// Returns the phones of `text` in IPA as the program `espeak-ng` pronounces them, if it is installed, and the
@@ -243,11 +242,8 @@ pub fn cue_phones_of_espeak(text: &str, code: &str) -> CorpusResult<(String, Vec
         other => other,
     };
     let cannot = |error: std::io::Error| {
-        CorpusError::from_wrong_message(format!("espeak-ng cannot be run: {error}")).with_advice(
-            ErrorRemedy::command_remedy(
-                "install espeak-ng, or give French text without --espeak, or phones with --phones",
-            ),
-        )
+        CorpusError::from_wrong_message(format!("espeak-ng cannot be run: {error}"))
+            .with_command_advice("install espeak-ng, or give French text without --espeak, or phones with --phones")
     };
     let mut child = Command::new("espeak-ng")
         .args(["-q", "-v", voice, "--ipa", "--stdin"])

@@ -13,7 +13,6 @@ use std::ops::Range;
 use chereme_compose::GeneratedCurve;
 use chereme_motion::column::{DecimalColumn, FrameNumberColumn};
 use chereme_motion::{FrameRate, FrameTimes, TimeSpan};
-use chereme_sign::ErrorRemedy;
 use rusqlite::Connection;
 
 use crate::Corpus;
@@ -161,9 +160,7 @@ pub(crate) fn write_table(
     let curves = of_track(connection, &track, frames.clone())?;
     if curves.is_empty() {
         let name = &stretch.recording.name;
-        return Err(CorpusError::from_wrong_message(format!("the recording {name:?} has no curves")).with_advice(
-            ErrorRemedy::command_remedy("signs made from notation with non-manual tiers have some; `chereme list CORPUS recordings` counts them"),
-        )
+        return Err(CorpusError::from_wrong_message(format!("the recording {name:?} has no curves")).with_command_advice("signs made from notation with non-manual tiers have some; `chereme list CORPUS recordings` counts them")
         .into_lacking_content());
     }
     let fault = |error: csv::Error| CorpusError::from_wrong_message(format!("the curves cannot be written: {error}"));

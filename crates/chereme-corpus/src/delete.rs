@@ -251,9 +251,9 @@ impl DeletionPlan {
                 token.gloss
             ))
             .with_error_place(place)
-            .with_advice(ErrorRemedy::command_remedy(
+            .with_command_advice(
                 "delete its annotations as well with --with-dependents, or name the recordings, too",
-            )));
+            ));
         }
         let made: Vec<&str> = self.made.values().map(String::as_str).collect();
         Ok(CorpusError::from_wrong_message(format!(
@@ -261,10 +261,10 @@ impl DeletionPlan {
             made.join(", ")
         ))
         .with_error_place(gone)
-        .with_advice(ErrorRemedy::command_remedy(
+        .with_command_advice(
             "delete them as well with --with-dependents, or keep them with --keep-dependents: they keep their own \
              movement, and their recipes cannot be evaluated again",
-        )))
+        ))
     }
 
     /// Returns the names of the recordings and the glosses of the signs that go.

@@ -1,7 +1,6 @@
 //! Small edits of recordings, signers and signs; each is an operation.
 
 use chereme_motion::BodySide;
-use chereme_sign::ErrorRemedy;
 use rusqlite::Connection;
 
 use crate::Corpus;
@@ -219,7 +218,7 @@ pub(crate) fn sign_there(connection: &Connection, id: i64) -> CorpusResult<i64> 
         Err(CorpusError::Database(rusqlite::Error::QueryReturnedNoRows)) => {
             Err(CorpusError::from_wrong_message(format!("there is no sign:{id}"))
                 .with_error_place(format!("sign:{id}"))
-                .with_advice(ErrorRemedy::command_remedy("`chereme list CORPUS signs` lists them")))
+                .with_command_advice("`chereme list CORPUS signs` lists them"))
         }
         Err(other) => Err(other),
     }

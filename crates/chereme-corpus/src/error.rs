@@ -1,5 +1,6 @@
 //! Errors of work on a corpus, with their place and remedy.
 
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 pub use chereme_compose::MeantName;
@@ -187,6 +188,11 @@ impl CorpusError {
         }
     }
 
+    /// Returns the failure to write a file that exists already.
+    pub fn from_existing_file(path: impl Into<PathBuf>) -> Self {
+        Self::from_file_failure(path, std::io::ErrorKind::AlreadyExists.into())
+    }
+
     /// Returns the error with `at` as its place.
     #[must_use]
     pub fn with_error_place(mut self, at: impl Into<String>) -> Self {
@@ -214,6 +220,12 @@ impl CorpusError {
             *remedy = Some(advice.into());
         }
         self
+    }
+
+    /// Returns the error with advice that names a command or an option of the command line.
+    #[must_use]
+    pub fn with_command_advice(self, advice: impl Into<Cow<'static, str>>) -> Self {
+        self.with_advice(ErrorRemedy::command_remedy(advice))
     }
 
     /// Returns the failure with the name that was meant.

@@ -15,7 +15,7 @@ use crate::db::lexicons::{self, LexiconContents, LexiconRow};
 use crate::db::{signs, stored_recordings};
 use crate::error::{CorpusError, CorpusResult, MeantName};
 use crate::inventories;
-use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::progress::{ProgressReceiver, ProgressUnit};
 use crate::tokens;
 use crate::words::effect::OperationEffect;
 
@@ -121,9 +121,7 @@ impl Corpus {
                 let text = format!("the lexicon {:?} has {signs} signs", row.name);
                 return Err(CorpusError::from_wrong_message(text)
                     .with_error_place(&row.name)
-                    .with_advice(ErrorRemedy::command_remedy(
-                        "delete its signs first with `chereme delete CORPUS sign:NAME/GLOSS`, make it one with another with `chereme lexicon CORPUS unite NAME --into OTHER`, or import its table again with --lexicon",
-                    )));
+                    .with_command_advice("delete its signs first with `chereme delete CORPUS sign:NAME/GLOSS`, make it one with another with `chereme lexicon CORPUS unite NAME --into OTHER`, or import its table again with --lexicon"));
             }
             lexicons::delete_lexicon(connection, row.id)?;
             let effect = OperationEffect::RemoveLexicon {
@@ -150,12 +148,7 @@ impl Corpus {
             let total = Some(ids.len() as u64);
             let mut names = Vec::new();
             for (done, id) in ids.iter().enumerate() {
-                progress.report_step(ProgressStep {
-                    task: "recordings",
-                    done: done as u64,
-                    total,
-                    unit: ProgressUnit::Items,
-                })?;
+                progress.report_amount(ProgressUnit::Items, "recordings", done as u64, total)?;
                 // A recording that is linked already keeps its tokens.
                 if lexicons::link_recording(connection, *id, lexicon.as_ref().map(|row| row.id))? {
                     let inventories = inventories::load_of(connection, *id)?;
@@ -280,8 +273,6 @@ pub(crate) fn keep_scope_rows<T>(
     let list: Vec<String> = named.map(|(name, count)| format!("{name} ({count})")).collect();
     Err(
         CorpusError::from_wrong_message(format!("these signs belong to several lexicons: {}", list.join(", ")))
-            .with_advice(ErrorRemedy::command_remedy(
-                "choose one with --lexicon NAME, or take all of them as one with --across",
-            )),
+            .with_command_advice("choose one with --lexicon NAME, or take all of them as one with --across"),
     )
 }

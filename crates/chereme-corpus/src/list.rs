@@ -5,7 +5,6 @@ use std::fmt;
 use std::str::FromStr;
 
 use chereme_sign::ComponentField;
-use chereme_sign::ErrorRemedy;
 use chereme_sign::hamnosys::to_names;
 use chereme_sign::text::{did_you_mean, nearest_candidate};
 use chereme_sign::tier::AnnotatedHands;
@@ -268,9 +267,7 @@ impl Corpus {
                 "tokens are filtered by their components with a query",
             )
             .with_error_place(pattern)
-            .with_advice(ErrorRemedy::command_remedy(
-                "`chereme search CORPUS 'right.configuration=U'`",
-            ))),
+            .with_command_advice("`chereme search CORPUS 'right.configuration=U'`")),
         }
     }
 

@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 
 use chereme_motion::RecordingInstant;
-use chereme_sign::ErrorRemedy;
 use rusqlite::Connection;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -116,7 +115,7 @@ impl Corpus {
             .ok_or_else(|| {
                 CorpusError::from_wrong_message(format!("there is no operation {id}"))
                     .with_error_place(id.to_string())
-                    .with_advice(ErrorRemedy::command_remedy("`chereme log CORPUS` lists them"))
+                    .with_command_advice("`chereme log CORPUS` lists them")
             })?;
         let mut rows = OperationRows::default();
         stored_history::each_change(connection, id, |change| {

@@ -5,7 +5,6 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use chereme_analysis::map::{WeightedFeatures, find_feature_neighbours, lay_out_map};
-use chereme_sign::ErrorRemedy;
 use chereme_sign::{ComponentField, SignComponent};
 use serde::Serialize;
 
@@ -16,7 +15,7 @@ use crate::db::stored_columns::RecordOrigin;
 use crate::error::{CorpusError, CorpusResult};
 use crate::inventories::{self, StoredInventory};
 use crate::lexicon::{LexiconScope, keep_scope_rows};
-use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::progress::{ProgressReceiver, ProgressUnit};
 use crate::suggest::{CodingReader, single_values};
 
 /// The signs of a map and the components that place them.
@@ -111,19 +110,12 @@ impl Corpus {
                 placed.len(),
                 names.join(", ")
             );
-            return Err(CorpusError::from_wrong_message(text).with_advice(
-                ErrorRemedy::command_remedy("import annotations or a lexicon with these components, or choose others; `chereme list CORPUS tokens` shows the codings"),
-            ));
+            return Err(CorpusError::from_wrong_message(text).with_command_advice("import annotations or a lexicon with these components, or choose others; `chereme list CORPUS tokens` shows the codings"));
         }
         let total = Some(2 * placed.len() as u64);
         let mut report = |done: u64| {
             let unit = ProgressUnit::Items;
-            progress.report_step(ProgressStep {
-                task: "map",
-                done,
-                total,
-                unit,
-            })
+            progress.report_amount(unit, "map", done, total)
         };
         // The search for neighbours is the first half of the work, and the layout the second.
         let near_signs = find_feature_neighbours(&things, MAP_NEIGHBOUR_COUNT, |done| report(done as u64).is_ok());

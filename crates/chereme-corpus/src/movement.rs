@@ -13,7 +13,6 @@ use chereme_motion::column::{ColumnNumbers as Form, FrameNumberColumn as Numbers
 use chereme_motion::ends::{ClipEnds, OddFrames};
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{BodySide, Clip, FrameRate, Skeleton, SkeletonJoint, SpaceConvention, TimeSpan};
-use chereme_sign::ErrorRemedy;
 use rusqlite::Connection;
 use serde::{Deserialize, Serialize};
 
@@ -203,9 +202,9 @@ pub(crate) struct MotionTrack {
 pub(crate) fn no_movement(recording: &str) -> CorpusError {
     CorpusError::from_wrong_message(format!("the recording {recording:?} holds no movement"))
         .with_error_place(recording)
-        .with_advice(ErrorRemedy::command_remedy(
+        .with_command_advice(
             "import the motion file of the same name; movement is made from markers by `chereme fit CORPUS RECORDING`",
-        ))
+        )
         .into_lacking_content()
 }
 

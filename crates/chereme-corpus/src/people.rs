@@ -4,7 +4,6 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_formats::table::people_table::{self, PersonTableRow};
 use chereme_motion::BodySide;
-use chereme_sign::ErrorRemedy;
 use chereme_sign::text::fold_text;
 use rusqlite::Connection;
 use serde::Serialize;
@@ -124,9 +123,7 @@ impl Corpus {
                 let text = format!("the corpus has recordings or tiers of {}", row.name);
                 return Err(CorpusError::from_wrong_message(text)
                     .with_error_place(row.name)
-                    .with_advice(ErrorRemedy::command_remedy(
-                        "forget the person with all of it: `chereme forget CORPUS signer:NAME`, or make them one with somebody: `chereme people CORPUS unite PERSON --into NAME`",
-                    )));
+                    .with_command_advice("forget the person with all of it: `chereme forget CORPUS signer:NAME`, or make them one with somebody: `chereme people CORPUS unite PERSON --into NAME`"));
             }
             people::delete_person(connection, row.id)?;
             let effect = OperationEffect::RemovePerson {
@@ -208,9 +205,9 @@ fn check_free_name(connection: &Connection, person: i64, name: &str) -> CorpusRe
             other.name
         ))
         .with_error_place(name)
-        .with_advice(ErrorRemedy::command_remedy(
+        .with_command_advice(
             "choose another name, or make the two one: `chereme people CORPUS unite PERSON --into NAME`",
-        ))),
+        )),
         _ => Ok(()),
     }
 }
@@ -421,9 +418,7 @@ fn refuse_differences(connection: &Connection, kept: &SignerRow, gone: &SignerRo
         differences.join(", ")
     ))
     .with_error_place(&gone.name)
-    .with_advice(ErrorRemedy::command_remedy(
-        "say of both the one that is true first: `chereme people CORPUS set NAME`",
-    )))
+    .with_command_advice("say of both the one that is true first: `chereme people CORPUS set NAME`"))
 }
 
 /// Takes a row of a table of people into the corpus, and counts it in the report.

@@ -159,8 +159,9 @@ impl Corpus {
     pub fn recombine_recipe(&mut self, recipe: &str, gloss: &str) -> CorpusResult<RecombinationResult> {
         let gloss = gloss.trim();
         if gloss.is_empty() {
-            return Err(CorpusError::from_wrong_message("a new sign needs a gloss")
-                .with_advice(ErrorRemedy::command_remedy("write --as GLOSS")));
+            return Err(
+                CorpusError::from_wrong_message("a new sign needs a gloss").with_command_advice("write --as GLOSS")
+            );
         }
         let (resolved, made, recipe) = self.evaluate_recipe_text(recipe)?;
         let (recording, token, name) = self.store.run_store_operation(|connection| {

@@ -5,7 +5,6 @@ use std::path::Path;
 use chereme_analysis::score::{ClipSimilarityScore, PerformedClip, ScoreError, ScoreOptions, score_as};
 use chereme_figure::{ChartOptions, alignment_picture, write_png};
 use chereme_motion::BodySide;
-use chereme_sign::ErrorRemedy;
 use serde::Serialize;
 
 use crate::Corpus;
@@ -81,9 +80,7 @@ impl Corpus {
             let text = format!("{:?} has a face but no body to compare", recording.name);
             return Err(CorpusError::from_wrong_message(text)
                 .with_error_place(&recording.name)
-                .with_advice(ErrorRemedy::command_remedy(
-                    "`chereme score CORPUS A B --face` compares expressions of the face",
-                )));
+                .with_command_advice("`chereme score CORPUS A B --face` compares expressions of the face"));
         }
         // Fingers that rest throughout would make all handshapes equal, though nobody captured them.
         let uncaptured = hands::find_resting_hands(connection, &self.hands, recording)?;

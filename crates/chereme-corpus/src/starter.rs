@@ -79,10 +79,7 @@ pub fn unpack_starter(folder: &Path) -> CorpusResult<Vec<PathBuf>> {
         let path = folder.join(name);
         let same = fs::read(&path).is_ok_and(|there| there == bytes);
         if path.exists() && !same {
-            return Err(CorpusError::from_file_failure(
-                path,
-                std::io::ErrorKind::AlreadyExists.into(),
-            ));
+            return Err(CorpusError::from_existing_file(path));
         }
         fs::write(&path, bytes).map_err(|error| CorpusError::from_file_failure(&path, error))?;
         paths.push(path);

@@ -2,7 +2,6 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use chereme_sign::ErrorRemedy;
 use chereme_sign::tier::AnnotatedHands;
 use chereme_sign::{ComponentField, HandRef, SignComponent, SignPhase, SignerHandedness};
 use serde::Serialize;
@@ -89,9 +88,9 @@ impl Corpus {
                 token_coding.len()
             ))
             .with_error_place(address.to_string())
-            .with_advice(ErrorRemedy::command_remedy(
+            .with_command_advice(
                 "code its handshape, placement and movement, or have them proposed with `chereme propose`",
-            )));
+            ));
         }
         let (mut partners, mut possible) = (Vec::new(), Vec::new());
         let mut used: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();

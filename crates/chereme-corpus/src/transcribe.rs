@@ -7,7 +7,6 @@ use chereme_analysis::transcribe::{
     transcribe_holds, transcribe_proven,
 };
 use chereme_motion::{BodySide, HandCorrection, TimeSpan};
-use chereme_sign::ErrorRemedy;
 use chereme_sign::hamnosys::{HamnosysSign, NonmanualActs, NotatedSign, print_hamnosys, to_names};
 use serde::Serialize;
 
@@ -279,9 +278,7 @@ impl Corpus {
             return Err(
                 CorpusError::from_wrong_message(format!("{address} has another notation already"))
                     .with_error_place(address.to_string())
-                    .with_advice(ErrorRemedy::command_remedy(
-                        "add --force to replace it; undo brings it back",
-                    )),
+                    .with_command_advice("add --force to replace it; undo brings it back"),
             );
         }
         let old = match old {

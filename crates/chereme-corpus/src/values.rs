@@ -2,7 +2,6 @@
 
 mod equate;
 
-use chereme_sign::ErrorRemedy;
 use chereme_sign::text::{did_you_mean, fold_text, nearest_candidate};
 use chereme_sign::{ComponentInventory, InventoryValue};
 use rusqlite::Connection;
@@ -56,9 +55,7 @@ impl Corpus {
                 let wrong = format!("{:?} has the value {:?} already", stored.inventory.id, value.id);
                 return Err(CorpusError::from_wrong_message(wrong)
                     .with_error_place(&value.id)
-                    .with_advice(ErrorRemedy::command_remedy(
-                        "`chereme list CORPUS values` lists the values",
-                    )));
+                    .with_command_advice("`chereme list CORPUS values` lists the values"));
             }
             let effect = OperationEffect::AddValue {
                 value: value.id.clone(),
@@ -164,9 +161,7 @@ pub(crate) fn find_stored_inventory(connection: &Connection, name: &str) -> Corp
         let suggestion = did_you_mean(nearest_candidate(name, ids.iter().map(String::as_str)));
         CorpusError::from_wrong_message(format!("there is no inventory {name:?}{suggestion}"))
             .with_error_place(name)
-            .with_advice(ErrorRemedy::command_remedy(
-                "`chereme list CORPUS inventories` lists them",
-            ))
+            .with_command_advice("`chereme list CORPUS inventories` lists them")
     })
 }
 
@@ -179,9 +174,7 @@ fn require_inventory_value<'i>(inventory: &'i ComponentInventory, name: &str) ->
             inventory.id
         ))
         .with_error_place(name)
-        .with_advice(ErrorRemedy::command_remedy(
-            "`chereme list CORPUS values` lists the values",
-        ))
+        .with_command_advice("`chereme list CORPUS values` lists the values")
     })
 }
 

@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::remedy::ErrorRemedy;
 use chereme_corpus::{CorpusAddress, CorpusError, ForgottenSigner};
 
 use crate::args::CommandLine;
@@ -46,9 +45,7 @@ pub(super) fn run(cli: &CommandLine, args: &ForgetArgs, output: &mut CommandOutp
     let CorpusAddress::Signer(signer) = &args.who else {
         return Err(CorpusError::from_wrong_message(format!("{} is no signer", args.who))
             .with_error_place(args.who.to_string())
-            .with_advice(ErrorRemedy::command_remedy(
-                "write signer:NAME; recordings and signs go with `chereme delete`",
-            ))
+            .with_command_advice("write signer:NAME; recordings and signs go with `chereme delete`")
             .into());
     };
     let mut corpus = cli.open_cli_corpus(&args.corpus)?;

@@ -240,7 +240,7 @@ fn merge_annotation_files(args: &MergeArgs, output: &mut CommandOutput) -> Resul
     }
     // Asked before the merge is printed, as a refused one must not look done.
     if to.exists() && !args.force {
-        return Err(CorpusError::from_file_failure(to, std::io::ErrorKind::AlreadyExists.into()).into());
+        return Err(CorpusError::from_existing_file(to).into());
     }
     std::fs::write(to, &merged.bytes).map_err(|error| CorpusError::from_file_failure(to, error))?;
     diff::print_difference(&merged.changes, output)?;

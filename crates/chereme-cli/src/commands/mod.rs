@@ -149,7 +149,7 @@ fn past_checking(error: anyhow::Error) -> anyhow::Error {
             let place = known.error_place().unwrap_or_default();
             CorpusError::from_wrong_message(known.to_string())
                 .with_error_place(place)
-                .with_advice(ErrorRemedy::command_remedy("the check cannot go on: take a backup, or save what can be read with `chereme export CORPUS all --to FOLDER`"))
+                .with_command_advice("the check cannot go on: take a backup, or save what can be read with `chereme export CORPUS all --to FOLDER`")
                 .into()
         }
         _ => error,

@@ -84,6 +84,7 @@ fn every_line_and_error_of_a_command_has_a_french_form() {
         "CorpusError::from_wrong_message(",
         ".write_remedy(",
         ".with_advice(",
+        ".with_command_advice(",
         "ErrorRemedy::command_remedy(",
         ".context(",
     ];

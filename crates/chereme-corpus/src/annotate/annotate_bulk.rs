@@ -7,7 +7,7 @@ use chereme_formats::roles::{self, TierMapping, TierRoleEvidence};
 use chereme_formats::table::TableError;
 use chereme_formats::table::annotations::{self, ChangeAction, ChangeRow, ChangeRowFault};
 use chereme_motion::RecordingInstant;
-use chereme_sign::{ErrorRemedy, TierTopic};
+use chereme_sign::TierTopic;
 use rusqlite::Connection;
 
 use super::annotate_names::SAME_TIME_MICROS;
@@ -80,9 +80,9 @@ pub(crate) fn read_table_changes(
     let (rows, findings) = annotations::read_change_table(table.bytes, options.unit).map_err(|error| {
         let wrong = CorpusError::from_wrong_message(error.to_string()).with_error_place(name);
         match error {
-            TableError::Implausible { .. } => wrong.with_advice(ErrorRemedy::command_remedy(
+            TableError::Implausible { .. } => wrong.with_command_advice(
                 "or name the unit with the table: `chereme annotate CORPUS from FILE --unit ms`, s or frames",
-            )),
+            ),
             _ => wrong,
         }
     })?;

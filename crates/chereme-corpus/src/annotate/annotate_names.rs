@@ -218,9 +218,7 @@ impl AnnotationChangeRun<'_> {
             [] => Err(
                 CorpusError::from_wrong_message(format!("no annotation is called {id:?}"))
                     .with_error_place(id)
-                    .with_advice(ErrorRemedy::command_remedy(
-                        "write annotation:12; `chereme list CORPUS annotations` lists them",
-                    )),
+                    .with_command_advice("write annotation:12; `chereme list CORPUS annotations` lists them"),
             ),
             several => {
                 let all: Vec<String> = several

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_formats::table::annotations::TableMoment;
 use chereme_motion::RecordingInstant;
-use chereme_sign::{ErrorRemedy, TierStereotype};
+use chereme_sign::TierStereotype;
 
 use super::annotate_clipboard::{self, ClipboardText, CopiedAnnotation, OddLine, OddReason};
 use super::annotate_names::TierRequestName;
@@ -111,9 +111,7 @@ impl Corpus {
                 let error = CorpusError::from_wrong_message(odd_line.odd_line_fault())
                     .with_error_place(format!("{name}, line {}", odd_line.line));
                 match odd_line.why {
-                    OddReason::Tier => error.with_advice(ErrorRemedy::command_remedy(
-                        "add the tier, or name another one with --tier",
-                    )),
+                    OddReason::Tier => error.with_command_advice("add the tier, or name another one with --tier"),
                     _ => error,
                 }
             });

@@ -1,7 +1,6 @@
 //! Adding, changing and removing tiers.
 
 use chereme_formats::roles::AnnotatedHands;
-use chereme_sign::ErrorRemedy;
 use chereme_sign::text::{did_you_mean, nearest_candidate};
 use chereme_sign::tier::{TierSet, check_tiers};
 use chereme_sign::{TierRole, TierStereotype};
@@ -353,9 +352,7 @@ fn find_tier_inventory<'i>(
         return Err(
             CorpusError::from_wrong_message(format!("there is no inventory {wanted:?}{hint}"))
                 .with_error_place(wanted)
-                .with_advice(ErrorRemedy::command_remedy(
-                    "`chereme list CORPUS inventories` lists them",
-                )),
+                .with_command_advice("`chereme list CORPUS inventories` lists them"),
         );
     };
     if component.is_some() && !fits(&stored) {

@@ -386,7 +386,7 @@ fn tiers_within(connection: &Connection, within: &TierSelection) -> CorpusResult
 fn no_tier(text: &str) -> CorpusError {
     CorpusError::from_wrong_message(format!("no recording has a tier {text:?}"))
         .with_error_place(text)
-        .with_advice(ErrorRemedy::command_remedy("`chereme list CORPUS tiers` lists them"))
+        .with_command_advice("`chereme list CORPUS tiers` lists them")
 }
 
 impl TierRow {

@@ -223,11 +223,8 @@ impl Corpus {
                 TierRoundScope::Recordings(_) => "no recording is named".to_owned(),
                 TierRoundScope::Query(text) | TierRoundScope::Pattern(text) => format!("no recording is {text:?}"),
             };
-            return Err(
-                CorpusError::from_wrong_message(scope_text).with_advice(ErrorRemedy::command_remedy(
-                    "`chereme list CORPUS recordings` lists them",
-                )),
-            );
+            return Err(CorpusError::from_wrong_message(scope_text)
+                .with_command_advice("`chereme list CORPUS recordings` lists them"));
         }
         Ok(ids)
     }
@@ -249,9 +246,8 @@ pub(super) fn empty_round_row(recording: &RecordingRow) -> TierRoundRow {
 }
 
 fn nothing_to_change(recordings: usize) -> CorpusError {
-    CorpusError::from_wrong_message(format!("nothing is to be changed in {recordings} recordings")).with_advice(
-        ErrorRemedy::command_remedy("`chereme list CORPUS tiers` lists the tiers of all recordings"),
-    )
+    CorpusError::from_wrong_message(format!("nothing is to be changed in {recordings} recordings"))
+        .with_command_advice("`chereme list CORPUS tiers` lists the tiers of all recordings")
 }
 
 impl TierRoundWork {

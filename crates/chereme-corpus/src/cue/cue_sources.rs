@@ -6,7 +6,6 @@ use std::sync::Arc;
 use chereme_formats::eaf::eaf_convert::{AnnotationTranscript, TranscriptTier};
 use chereme_formats::table;
 use chereme_motion::RecordingInstant;
-use chereme_sign::ErrorRemedy;
 use chereme_sign::cue::{CueCode, CuedUtterance, PhoneAlphabet, PronunciationDictionary, SpokenPhone, TimedText};
 
 use super::{KeysOptions, utterance_read_error};
@@ -193,7 +192,7 @@ fn spoken_tier<'a>(transcript: &'a AnnotationTranscript, wanted: Option<&str>) -
             "no tier is called like phones or words; there are: {}",
             names()
         ))
-        .with_advice(ErrorRemedy::command_remedy("name one with --tier")),
+        .with_command_advice("name one with --tier"),
     })
 }
 

@@ -9,7 +9,6 @@ use chereme_analysis::cue::cue_labels;
 use chereme_analysis::cue::session::{ExpectedCueKey, FollowedTake, KeySounds, rigid_set};
 use chereme_compose::CueTier;
 use chereme_motion::{MarkerSpace, MarkerTrack, RecordingInstant, TimeSpan};
-use chereme_sign::ErrorRemedy;
 use chereme_sign::cue::{self, CueCode, CuedUtterance, PhoneAlphabet, SpokenPhone};
 use rusqlite::Connection;
 use serde::Serialize;
@@ -231,9 +230,7 @@ pub(super) fn load_cuer_take(
     let no_markers = |message: String| {
         CorpusError::from_wrong_message(message)
             .with_error_place(row.name.clone())
-            .with_advice(ErrorRemedy::command_remedy(
-                "import a .c3d or .trc file of a cuer; other labels are mapped with --labels FILE",
-            ))
+            .with_command_advice("import a .c3d or .trc file of a cuer; other labels are mapped with --labels FILE")
     };
     let mut best: Option<(TrackRow, usize)> = None;
     let all = stored_tracks::load_track_rows(connection, row.id)?;
@@ -398,11 +395,8 @@ pub(super) fn load_cuer_takes(
     }
     if take_list.is_empty() {
         return Err(
-            CorpusError::from_wrong_message("no recording shows the markers of a cuer's hand or face").with_advice(
-                ErrorRemedy::command_remedy(
-                    "import .c3d or .trc files of a cuer; other labels are mapped with --labels FILE",
-                ),
-            ),
+            CorpusError::from_wrong_message("no recording shows the markers of a cuer's hand or face")
+                .with_command_advice("import .c3d or .trc files of a cuer; other labels are mapped with --labels FILE"),
         );
     }
     Ok(take_list)

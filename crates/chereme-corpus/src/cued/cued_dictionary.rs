@@ -7,7 +7,6 @@ use chereme_analysis::cue::rigid::RigidMotion;
 use chereme_analysis::cue::session::{CuerRecognisers, KeyGestures, bridge_row_gaps, rigid_set};
 use chereme_compose::cue::dikey::{DikeyDictionary, DikeyEnd, KeyTransition};
 use chereme_motion::glam::{DQuat, DVec3};
-use chereme_sign::ErrorRemedy;
 use chereme_sign::cue::{self, CuedUtterance};
 use rusqlite::Connection;
 use serde::Serialize;
@@ -290,9 +289,8 @@ pub(super) fn cut_dikey_book(
     let flat: Vec<&Vec<f64>> = all.iter().flatten().flatten().map(|(hand, _)| hand).collect();
     if flat.len() < 20 {
         return Err(
-            CorpusError::from_wrong_message("too few frames show every marker of the hand and the head").with_advice(
-                ErrorRemedy::command_remedy("restore the hidden markers first: chereme cued CORPUS restore"),
-            ),
+            CorpusError::from_wrong_message("too few frames show every marker of the hand and the head")
+                .with_command_advice("restore the hidden markers first: chereme cued CORPUS restore"),
         );
     }
     // Components change little with more frames; evenly spaced ones stand for all takes.

@@ -11,7 +11,6 @@ use chereme_motion::column::FrameNumberColumn;
 use chereme_motion::glam::DVec3;
 use chereme_motion::markers::{MotionMarker, QualityMeaning};
 use chereme_motion::{CaptureMethod, MarkerSpace, MarkerTrack, SpaceConvention};
-use chereme_sign::ErrorRemedy;
 use rusqlite::Connection;
 use serde::Serialize;
 
@@ -228,14 +227,7 @@ fn models(
     let faces = lone_takes(CuerTake::has_face, CuerTake::has_hand);
     let names = |of: &[&CuerTake]| of.iter().map(|take| take.row.name.clone()).collect();
     let mut findings = Vec::new();
-    let mut learn = |task: &'static str, done: u64| {
-        progress.report_step(ProgressStep {
-            task,
-            done,
-            total: Some(2),
-            unit: ProgressUnit::Items,
-        })
-    };
+    let mut learn = |task: &'static str, done: u64| progress.report_amount(ProgressUnit::Items, task, done, Some(2));
     learn("the model of the hand", 0)?;
     let hand = match thinned(&hands, |take| &take.hand_points) {
         frames if frames.is_empty() => None,
@@ -260,9 +252,9 @@ fn models(
     };
     if hand.is_none() && face.is_none() {
         return Err(
-            CorpusError::from_wrong_message(findings.join("; ")).with_advice(ErrorRemedy::command_remedy(
+            CorpusError::from_wrong_message(findings.join("; ")).with_command_advice(
                 "name with --train recordings that show every marker, of the hand alone or the face alone",
-            )),
+            ),
         );
     }
     let models = RestorationModels { hand, face, findings };

@@ -9,7 +9,6 @@ use chereme_motion::column::FrameNumberColumn;
 use chereme_motion::glam::DVec3;
 use chereme_motion::markers::MotionMarker;
 use chereme_motion::{CaptureMethod, FrameRate, FrameTimes, MarkerSpace, MarkerTrack, SpaceConvention, TimeSpan};
-use chereme_sign::ErrorRemedy;
 use chereme_sign::TierRole;
 use chereme_sign::cue::{self, CuedUtterance, UtteranceError};
 use rusqlite::Connection;
@@ -189,9 +188,8 @@ impl Corpus {
         };
         let measured = match how.phase {
             PhaseRule::Measured => measured_cue_phases(self.store.read_connection())?.ok_or_else(|| {
-                CorpusError::from_wrong_message("too few captured keys of each kind have measured phases").with_advice(
-                    ErrorRemedy::command_remedy("store them first: chereme cued CORPUS targets --store"),
-                )
+                CorpusError::from_wrong_message("too few captured keys of each kind have measured phases")
+                    .with_command_advice("store them first: chereme cued CORPUS targets --store")
             })?,
             _ => CuePhases::default(),
         };
@@ -406,8 +404,7 @@ fn store_sentence_movement(
 ) -> CorpusResult<String> {
     let gloss = gloss.trim();
     if gloss.is_empty() {
-        return Err(CorpusError::from_wrong_message("a new sign needs a gloss")
-            .with_advice(ErrorRemedy::command_remedy("write --as GLOSS")));
+        return Err(CorpusError::from_wrong_message("a new sign needs a gloss").with_command_advice("write --as GLOSS"));
     }
     let name = stored_recordings::free_recording_name(connection, gloss)?;
     let end = seconds_to_micros(made.hand.len() as f64 / book.rate);

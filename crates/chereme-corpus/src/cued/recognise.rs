@@ -2,7 +2,6 @@
 
 use chereme_analysis::cue::gauss::{GaussianRecogniser, RecognitionConfusion};
 use chereme_analysis::cue::session::{CuerRecognisers, collect_target_examples, find_key_gestures, find_known};
-use chereme_sign::ErrorRemedy;
 use serde::Serialize;
 
 use super::capture::{KeyedTake, load_keyed_takes};
@@ -128,9 +127,8 @@ impl Corpus {
         let (shapes, placements) = collect_target_examples(&pairs, &shown);
         if shapes.is_empty() || placements.is_empty() {
             return Err(
-                CorpusError::from_wrong_message("no key has a target whose markers are seen").with_advice(
-                    ErrorRemedy::command_remedy("restore the hidden markers first: chereme cued CORPUS restore"),
-                ),
+                CorpusError::from_wrong_message("no key has a target whose markers are seen")
+                    .with_command_advice("restore the hidden markers first: chereme cued CORPUS restore"),
             );
         }
         let keys: usize = shown.iter().map(Vec::len).sum();
@@ -184,10 +182,9 @@ pub(super) fn train_key_recognisers(
 ) -> CorpusResult<(CuerRecognisers, Vec<Vec<chereme_analysis::cue::session::KeyGestures>>)> {
     let pairs: Vec<_> = takes.iter().map(KeyedTake::followed_with_keys).collect();
     find_key_gestures(&pairs).map_err(|error| {
-        CorpusError::from_wrong_message(format!("the recognisers cannot learn from these keys: {error}")).with_advice(
-            ErrorRemedy::command_remedy(
+        CorpusError::from_wrong_message(format!("the recognisers cannot learn from these keys: {error}"))
+            .with_command_advice(
                 "import more takes with keys, or restore their hidden markers first: chereme cued CORPUS restore",
-            ),
-        )
+            )
     })
 }

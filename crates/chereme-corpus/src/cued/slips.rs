@@ -1,7 +1,6 @@
 //! Comparison of produced and predicted keys of a take: insertions, deletions, and substitutions of shape or placement.
 
 use chereme_analysis::cue::session::ExpectedCueKey;
-use chereme_sign::ErrorRemedy;
 use chereme_sign::cue::{self, CuedUtterance, SpokenPhone, UtteranceError};
 use serde::Serialize;
 
@@ -117,9 +116,9 @@ impl Corpus {
                     return Err(
                         CorpusError::from_wrong_message(format!("{name:?} has no tier of phones"))
                             .with_error_place(name)
-                            .with_advice(ErrorRemedy::command_remedy(
+                            .with_command_advice(
                                 "give the text with --text, or import an alignment with a tier called Phones",
-                            )),
+                            ),
                     );
                 };
                 let read = CuedUtterance::of_phones(code.clone(), phones, alphabet);

@@ -3,7 +3,6 @@
 use std::io::Write;
 
 #[cfg(not(feature = "parquet"))]
-use chereme_sign::ErrorRemedy;
 use rusqlite::Connection;
 
 use super::ExportWhat;
@@ -143,10 +142,8 @@ pub(super) fn write_long_table(
         LongTable::Frames => "export .bvh, or a folder of everything",
     };
     Err(
-        crate::error::CorpusError::from_wrong_message("this program was built without Parquet").with_advice(
-            ErrorRemedy::command_remedy(format!(
-                "build it with `cargo build --release --features parquet`; or {instead}"
-            )),
+        crate::error::CorpusError::from_wrong_message("this program was built without Parquet").with_command_advice(
+            format!("build it with `cargo build --release --features parquet`; or {instead}"),
         ),
     )
 }

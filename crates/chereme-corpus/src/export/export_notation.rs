@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 use std::io::Write;
 
 use chereme_formats::{hns, sigml};
-use chereme_sign::ErrorRemedy;
 use chereme_sign::hamnosys::NotatedSign;
 use rusqlite::Connection;
 
@@ -38,9 +37,7 @@ pub(super) fn write_token_notations(
     let without = tokens.len() - signs.len();
     if signs.is_empty() {
         return Err(CorpusError::from_wrong_message("none of these tokens has a notation")
-            .with_advice(ErrorRemedy::command_remedy(
-                "`chereme list CORPUS tokens --where notation=*` lists those that have one",
-            ))
+            .with_command_advice("`chereme list CORPUS tokens --where notation=*` lists those that have one")
             .into_lacking_content());
     }
     if without > 0 {

@@ -5,7 +5,7 @@ use std::io::Write;
 use chereme_formats::eaf::AnnotationTranscript;
 use chereme_formats::eaf::eaf_convert::TranscriptTier;
 use chereme_formats::subtitles::{self, SubtitleFormat};
-use chereme_sign::{ErrorRemedy, TierRole};
+use chereme_sign::TierRole;
 use rusqlite::Connection;
 
 use super::foreign::write_export_bytes;
@@ -97,7 +97,7 @@ pub(super) fn write_tier_subtitles(
     if stored_tiers::load_tier_annotation_rows(connection, row.id)?.is_empty() {
         return Err(
             CorpusError::from_wrong_message(format!("the tier {:?} has no annotations", row.name))
-                .with_advice(ErrorRemedy::command_remedy("`chereme list CORPUS tiers` counts them"))
+                .with_command_advice("`chereme list CORPUS tiers` counts them")
                 .into_lacking_content(),
         );
     }

@@ -9,7 +9,6 @@ use chereme_formats::gltf::vrma::{self, AvatarFace, ExpressionTrack};
 use chereme_formats::table::annotations;
 use chereme_formats::{TooFar, c3d, gltf, textgrid, trc, xra};
 use chereme_motion::{MarkerSpace, RecordingInstant, TimeSpan};
-use chereme_sign::ErrorRemedy;
 use rusqlite::Connection;
 
 use super::movement_form::{MovementForm, ShapedMovement};
@@ -77,9 +76,8 @@ fn describe_gltf_stretch(
 
 /// Returns the error for a place that does not fit into the file.
 pub(super) fn too_far(error: &TooFar) -> CorpusError {
-    CorpusError::from_wrong_message(error.to_string()).with_advice(ErrorRemedy::command_remedy(
-        "import it again with the right --unit, or write .bvh, which holds any number",
-    ))
+    CorpusError::from_wrong_message(error.to_string())
+        .with_command_advice("import it again with the right --unit, or write .bvh, which holds any number")
 }
 
 /// Returns the span of frames of a track on the clock of its recording.
@@ -149,9 +147,7 @@ pub(super) fn write_vrma_stretch(
     let bytes = vrma::write_vrma(&clip, &anatomy, &face, &about).map_err(|error| match error {
         vrma::VrmaWriteError::TooFar(error) => too_far(&error),
         vrma::VrmaWriteError::NoAvatar(reason) => CorpusError::from_wrong_message(reason)
-            .with_advice(ErrorRemedy::command_remedy(
-                "say which joint is what with `chereme track`, or write .glb",
-            ))
+            .with_command_advice("say which joint is what with `chereme track`, or write .glb")
             .into_lacking_content(),
     })?;
     write_export_bytes(out, &bytes)
@@ -297,9 +293,7 @@ fn first_track_of_kind(
             "the recording {name:?} has no track of {}",
             kind.track_kind_name()
         ))
-        .with_advice(ErrorRemedy::command_remedy(
-            "`chereme track CORPUS RECORDING` lists its tracks",
-        ))
+        .with_command_advice("`chereme track CORPUS RECORDING` lists its tracks")
         .into_lacking_content()
     })?;
     if !names.is_empty() {

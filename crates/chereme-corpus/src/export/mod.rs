@@ -31,7 +31,6 @@ use std::io::{self, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
 use chereme_formats::subtitles::SubtitleFormat as Subtitles;
-use chereme_sign::ErrorRemedy;
 use rusqlite::Connection;
 use serde::Serialize;
 use sha2::{Digest, Sha256};
@@ -207,9 +206,7 @@ impl Corpus {
                             "the name ends in .{extension}, and the format is {named}"
                         ))
                         .with_error_place(to.display().to_string())
-                        .with_advice(ErrorRemedy::command_remedy(format!(
-                            "leave --format out, or end the name in .{named}"
-                        ))));
+                        .with_command_advice(format!("leave --format out, or end the name in .{named}")));
                     }
                     Some((format, _)) => format,
                     None => by_name.ok_or_else(|| unknown_format_error(to, extension))?,
@@ -574,9 +571,9 @@ fn with_tiers(connection: &Connection, stretch: RecordingStretch) -> CorpusResul
     let name = &stretch.recording.name;
     Err(
         CorpusError::from_wrong_message(format!("the recording {name:?} has no tiers"))
-            .with_advice(ErrorRemedy::command_remedy(
+            .with_command_advice(
                 "add one with `chereme annotate CORPUS add-tier --in RECORDING NAME`, or export .eaf, which needs none",
-            ))
+            )
             .into_lacking_content(),
     )
 }
@@ -681,7 +678,7 @@ impl UnnamedExportFile {
     ) -> CorpusResult<Self> {
         // A folder is never replaced by a file, not even by force.
         if to.is_dir() || (to.exists() && !force) {
-            return Err(CorpusError::from_file_failure(to, io::ErrorKind::AlreadyExists.into()));
+            return Err(CorpusError::from_existing_file(to));
         }
         check_folder(to)?;
         let mut unnamed = Self {

@@ -79,10 +79,7 @@ pub(super) fn write_export_folder(
             .with_advice("name recordings or tokens, or a query that finds some"));
     }
     if to.is_file() {
-        return Err(CorpusError::from_file_failure(
-            to,
-            std::io::ErrorKind::AlreadyExists.into(),
-        ));
+        return Err(CorpusError::from_existing_file(to));
     }
     // A folder that was there before belongs to the user, also if the export fails.
     let is_new = !to.exists();

@@ -5,7 +5,6 @@ use std::thread;
 use chereme_analysis::dtw::CostMethod;
 use chereme_analysis::phases::{self, NoPath, PhasedPerformance, PhasedScore};
 use chereme_motion::{RecordingInstant, TimeSpan};
-use chereme_sign::ErrorRemedy;
 use chereme_sign::milestones::{ExpressionFunction, ExpressionMilestones};
 use chereme_sign::text::did_you_mean;
 use serde::Serialize;
@@ -252,10 +251,8 @@ impl Corpus {
         let use_of: Vec<usize> = (0..asked.len()).filter(is_shown).collect();
         if use_of.is_empty() {
             return Err(
-                CorpusError::from_wrong_message("the two faces have no channel in common").with_advice(
-                    ErrorRemedy::command_remedy(
-                        "name channels that both have with --channels; `chereme face CORPUS RECORDING` lists them",
-                    ),
+                CorpusError::from_wrong_message("the two faces have no channel in common").with_command_advice(
+                    "name channels that both have with --channels; `chereme face CORPUS RECORDING` lists them",
                 ),
             );
         }
@@ -313,9 +310,7 @@ impl Corpus {
             return Err(
                 CorpusError::from_wrong_message(format!("no other recording has a performance of {function}"))
                     .with_error_place(function.function_name())
-                    .with_advice(ErrorRemedy::command_remedy(
-                        "`chereme milestones CORPUS` lists the functions that there are",
-                    )),
+                    .with_command_advice("`chereme milestones CORPUS` lists the functions that there are"),
             );
         }
         let asked_for = RankingRequest {
@@ -618,7 +613,7 @@ fn phased_comparison_error(error: &phases::PhasedError) -> CorpusError {
 fn faceless(address: &CorpusAddress) -> CorpusError {
     CorpusError::from_wrong_message(format!("{address} shows no face and no turn of the head"))
         .with_error_place(address.to_string())
-        .with_advice(ErrorRemedy::command_remedy(
+        .with_command_advice(
             "import its face file under the recording's name, or rank by the medoid with --rank medoid",
-        ))
+        )
 }

@@ -5,7 +5,6 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use chereme_motion::RecordingInstant;
-use chereme_sign::ErrorRemedy;
 use chereme_sign::milestones::{ExpressionFunction, UTTERANCE_EDGE_MICROS};
 use serde::Serialize;
 
@@ -159,8 +158,11 @@ impl Corpus {
             }
         }
         if report.expressions + report.too_long == 0 {
-            return Err(CorpusError::from_wrong_message("there are no expressions with a function")
-                .with_advice(ErrorRemedy::command_remedy("annotate wh, yn, negation or topic on a tier called \"function\"; see `chereme milestones --help`")));
+            return Err(
+                CorpusError::from_wrong_message("there are no expressions with a function").with_command_advice(
+                    "annotate wh, yn, negation or topic on a tier called \"function\"; see `chereme milestones --help`",
+                ),
+            );
         }
         for ((function, channel), lags) in reaches {
             let n = lags.len() as u64;

@@ -4,7 +4,6 @@ use std::io::Write;
 
 use chereme_figure::{PictureSequence, RasterImage};
 use chereme_formats::mp4::{self, Mp4Muxer};
-use chereme_sign::ErrorRemedy;
 use rusty_h264::{Encoder, EncoderConfig, Preset, YuvFrame};
 
 use super::colours::{PicturePlanes, default_film_colours};
@@ -93,9 +92,7 @@ fn coder([width, height]: [usize; 2], rate: u32) -> CorpusResult<Encoder> {
         CorpusError::from_wrong_message(format!(
             "a film of {width} by {height} pixels at {rate} pictures a second is too large for players"
         ))
-        .with_advice(ErrorRemedy::command_remedy(
-            "make it lower with --height, draw fewer clips next to each other, or lower --rate",
-        ))
+        .with_command_advice("make it lower with --height, draw fewer clips next to each other, or lower --rate")
     })?;
     let config = EncoderConfig {
         level_idc: *level,

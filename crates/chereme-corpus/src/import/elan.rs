@@ -158,9 +158,7 @@ pub(super) fn import_template(
             return Ok(FileReport::unchanged_file_report(job.path, None));
         }
         let none = CorpusError::from_wrong_message("a template of tiers, and no recording next to it is without tiers")
-            .with_advice(ErrorRemedy::command_remedy(
-                "name the recording: import CORPUS FILE --into RECORDING",
-            ));
+            .with_command_advice("name the recording: import CORPUS FILE --into RECORDING");
         // A template in a folder of others may be meant for none of them; one that is named is meant.
         return match job.named && taken.is_empty() {
             true => Err(none),

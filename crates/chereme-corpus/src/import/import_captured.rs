@@ -134,9 +134,7 @@ fn import_tiers(job: &mut ImportJob<'_>, progress: &mut ProgressReceiver<'_>) ->
         let name = document_path.file_name().unwrap_or_default().to_string_lossy();
         let why = CorpusError::from_wrong_message(format!("it is an export of {name}, which says more"))
             .with_error_place(job.path.display().to_string())
-            .with_advice(ErrorRemedy::command_remedy(
-                "if it holds changes of its own: `chereme annotate CORPUS --in RECORDING from FILE`",
-            ));
+            .with_command_advice("if it holds changes of its own: `chereme annotate CORPUS --in RECORDING from FILE`");
         return match job.named {
             true => Err(why),
             false => Ok(FileReport::skipped_file_report(job.path, &why)),

@@ -10,7 +10,6 @@ use chereme_formats::tracks::CapturedTracks;
 use chereme_formats::{
     ImportFinding, anvil, c3d, eaf as elan_file, exmaralda, pose, signstream, subtitles, textgrid, trc, xra,
 };
-use chereme_sign::ErrorRemedy;
 
 use super::import_unread::begins_with_text;
 pub(super) use super::import_unread::unread_format_error;
@@ -341,9 +340,9 @@ pub(super) fn exported_copy_error(path: &Path) -> Option<CorpusError> {
     Some(
         CorpusError::from_wrong_message(why)
             .with_error_place(path.display().to_string())
-            .with_advice(ErrorRemedy::command_remedy(
+            .with_command_advice(
                 "open the corpus.chereme of that folder, or merge it into yours: `chereme merge CORPUS OTHER`",
-            )),
+            ),
     )
 }
 

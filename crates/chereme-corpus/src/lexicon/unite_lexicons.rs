@@ -1,6 +1,5 @@
 //! Lexicons made one: entries that correspond are joined, all others move.
 
-use chereme_sign::ErrorRemedy;
 use rusqlite::Connection;
 use serde::Serialize;
 
@@ -113,10 +112,10 @@ fn take_over_fields(kept: &mut LexiconRow, gone: &LexiconRow) -> CorpusResult<()
     let text = format!("{} and {} differ in: {}", kept.name, gone.name, differences.join(", "));
     Err(CorpusError::from_wrong_message(text)
         .with_error_place(&gone.name)
-        .with_advice(ErrorRemedy::command_remedy(
+        .with_command_advice(
             "first give both the one that is true: `chereme lexicon CORPUS set NAME --language CODE`; --release, --terms and \
              --citation set the others",
-        )))
+        ))
 }
 
 fn join_remarks(own: Option<String>, other: Option<String>) -> Option<String> {

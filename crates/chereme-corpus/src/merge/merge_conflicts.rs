@@ -4,7 +4,6 @@ use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_motion::RecordingInstant;
-use chereme_sign::ErrorRemedy;
 use rusqlite::Connection;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -417,7 +416,7 @@ impl Corpus {
                     .ok_or_else(|| {
                         CorpusError::from_wrong_message(format!("there is no open conflict {number}"))
                             .with_error_place(number.to_string())
-                            .with_advice(ErrorRemedy::command_remedy("`chereme conflicts CORPUS` lists them"))
+                            .with_command_advice("`chereme conflicts CORPUS` lists them")
                     })?;
                 // The rules that are broken already are noted before the decisions, so that only new ones
                 // count.

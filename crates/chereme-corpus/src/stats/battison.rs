@@ -15,7 +15,6 @@ use serde::{Deserialize, Serialize};
 use super::{STATS_INTERVAL_LEVEL, StatsEstimate, StatsOptions};
 use crate::error::{CorpusError, CorpusResult};
 use crate::forms::{SignForm, SignForms};
-use crate::remedy::ErrorRemedy;
 
 /// The unmarked handshapes of Battison 1978.
 const UNMARKED_HANDSHAPES: [&str; 7] = ["B", "A", "S", "C", "O", "1", "5"];
@@ -149,9 +148,7 @@ pub(super) fn battison_conditions(forms: &SignForms, options: &StatsOptions) -> 
     let (Some(_), Some(strong), Some(weak)) = (roles.sign_type, roles.strong, roles.weak) else {
         let names: Vec<&str> = forms.fields.iter().map(|field| field.name.as_str()).collect();
         let text = "the fields do not say the type of a sign and the handshapes of both hands";
-        return Err(CorpusError::from_wrong_message(text).with_error_place(names.join(", ")).with_advice(ErrorRemedy::command_remedy(
-            "name them in --fields: columns such as Handedness, Handshape strong and Handshape weak, or configuration.handedness, configuration and weak.configuration",
-        )));
+        return Err(CorpusError::from_wrong_message(text).with_error_place(names.join(", ")).with_command_advice("name them in --fields: columns such as Handedness, Handshape strong and Handshape weak, or configuration.handedness, configuration and weak.configuration"));
     };
     let unmarked: Vec<String> = match &options.unmarked[..] {
         [] => UNMARKED_HANDSHAPES.map(str::to_owned).to_vec(),

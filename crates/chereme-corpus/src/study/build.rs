@@ -21,7 +21,7 @@ use crate::db::stored_motion::to_hex_text;
 use crate::error::{CorpusError, CorpusResult};
 use crate::film::{WrittenFilmShape, write_film};
 use crate::page::{encode_base64, fill_page_parts};
-use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::progress::{ProgressReceiver, ProgressUnit};
 
 /// The page with places for its parts, its script and its style.
 const QUESTIONNAIRE_PAGE_HTML: &str = include_str!("page/index.html");
@@ -94,10 +94,7 @@ impl Corpus {
         let study = self.study_with_answers(name)?;
         let page = to.join("index.html");
         if page.exists() && !options.force {
-            return Err(CorpusError::from_file_failure(
-                page,
-                std::io::ErrorKind::AlreadyExists.into(),
-            ));
+            return Err(CorpusError::from_existing_file(page));
         }
         seals::verify_material(self.store.read_connection())?;
         self.refuse_withheld_clips(&study.plan, options.audience)?;
@@ -178,14 +175,7 @@ impl Corpus {
                 ..AnimationOptions::default()
             };
             let animation = ClipAnimation::new(&it.clip, &it.anatomy, settings).map_err(study_figure_error)?;
-            let mut hear = |_, _| {
-                progress.report_step(ProgressStep {
-                    task: "drawing films",
-                    done: drawn,
-                    total: Some(total),
-                    unit: ProgressUnit::Items,
-                })
-            };
+            let mut hear = |_, _| progress.report_amount(ProgressUnit::Items, "drawing films", drawn, Some(total));
             let film = encode_study_film(animation, options.rate.clamp(1, 120), &mut hear)?;
             drawn += 1;
             // The name says nothing about the condition, and equal films become one file.

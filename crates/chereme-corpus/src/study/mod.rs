@@ -47,7 +47,6 @@ use std::sync::Arc;
 
 use chereme_motion::anatomy::BodyAnatomy;
 use chereme_motion::{Clip, FacePosture};
-use chereme_sign::ErrorRemedy;
 use chereme_sign::text::{did_you_mean, nearest_candidate};
 use rusqlite::Connection;
 use serde::Serialize;
@@ -55,7 +54,7 @@ use serde::Serialize;
 use crate::Corpus;
 use crate::db::stored_studies as db;
 use crate::error::{CorpusError, CorpusResult};
-use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::progress::{ProgressReceiver, ProgressUnit};
 use crate::words::effect::OperationEffect;
 use stored::StoredStudy;
 use study_answers::StudyParticipant;
@@ -72,9 +71,7 @@ pub use wide::ColumnUse;
 /// Returns the error for a code that no participant has.
 fn no_participant(code: &str) -> CorpusError {
     let error = CorpusError::from_wrong_message(format!("no participant has the code {code:?}")).with_error_place(code);
-    error.with_advice(ErrorRemedy::command_remedy(
-        "`chereme study answers CORPUS NAME` lists the codes",
-    ))
+    error.with_command_advice("`chereme study answers CORPUS NAME` lists the codes")
 }
 
 /// A study with everything that was answered.
@@ -241,12 +238,7 @@ impl Corpus {
         let mut errors = Vec::new();
         let total = Some(clips.len() as u64);
         for (done, (text, trials)) in clips.into_iter().enumerate() {
-            progress.report_step(ProgressStep {
-                task: "making clips",
-                done: done as u64,
-                total,
-                unit: ProgressUnit::Items,
-            })?;
+            progress.report_amount(ProgressUnit::Items, "making clips", done as u64, total)?;
             match self.trial_clip(text) {
                 Ok(clip) => take(&trials, clip)?,
                 Err(CorpusError::Stopped) => return Err(CorpusError::Stopped),
@@ -280,5 +272,5 @@ fn find_stored_study(connection: &Connection, name: &str) -> CorpusResult<Stored
     let suggestion = did_you_mean(nearest_candidate(name, names.iter().map(String::as_str)));
     let error =
         CorpusError::from_wrong_message(format!("there is no study {name:?}{suggestion}")).with_error_place(name);
-    Err(error.with_advice(ErrorRemedy::command_remedy("`chereme list CORPUS studies` lists them")))
+    Err(error.with_command_advice("`chereme list CORPUS studies` lists them"))
 }

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use chereme_sign::ErrorRemedy;
 use chereme_sign::text::fold_text;
 
 use super::study_plan::{
@@ -57,11 +56,11 @@ impl StudyRequest {
         let stated = trials.len();
         trials.extend(self.others.iter().cloned().map(ListedTrial::from_plain_trial));
         if trials.is_empty() {
-            return Err(CorpusError::from_wrong_message("a study needs trials").with_advice(
-                ErrorRemedy::command_remedy(
+            return Err(
+                CorpusError::from_wrong_message("a study needs trials").with_command_advice(
                     "name --items and at least one --condition, or a table of trials with --trials FILE",
                 ),
-            ));
+            );
         }
         let mut questions = Vec::new();
         for text in &self.questions {
@@ -72,7 +71,7 @@ impl StudyRequest {
         }
         if questions.is_empty() {
             return Err(CorpusError::from_wrong_message("a study needs a question")
-                .with_advice(ErrorRemedy::command_remedy("ask one with --ask realism")));
+                .with_command_advice("ask one with --ask realism"));
         }
         let answers = trials[..stated].iter_mut();
         let wrong = answers.filter_map(|listed| fill_right_answers(listed, &questions).err());

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeSet;
 
-use chereme_sign::ErrorRemedy;
 use chereme_sign::text::{did_you_mean, nearest_candidate};
 
 use super::study_plan::{
@@ -27,9 +26,7 @@ pub(super) const MAX_PLAN_BYTES: usize = 4 << 20;
 pub(super) fn read_study_plan(text: &str, place: &str) -> CorpusResult<StudyPlan> {
     let wrong = |message: String| {
         let error = CorpusError::from_wrong_message(message).with_error_place(place);
-        error.with_advice(ErrorRemedy::command_remedy(
-            "`chereme study show CORPUS NAME --json` prints the plan of a study to begin with",
-        ))
+        error.with_command_advice("`chereme study show CORPUS NAME --json` prints the plan of a study to begin with")
     };
     if text.len() > MAX_PLAN_BYTES {
         return Err(wrong("the plan is too large".to_owned()));

@@ -3,8 +3,6 @@
 use std::collections::BTreeMap;
 use std::io::Write;
 
-use chereme_sign::ErrorRemedy;
-
 use super::study_answers::{ANSWERS_FORMAT, ANSWERS_VERSION, ParticipantDevice, StudyAnswer, StudyParticipant};
 use super::study_plan::{StudyPlan, TrialRole};
 use super::study_rows::{TextTable, read_text_table};
@@ -148,9 +146,7 @@ pub(super) fn read_long_answers(text: &str, file: &str) -> CorpusResult<(Vec<Lis
         if column(needed).is_none() {
             let error =
                 CorpusError::from_wrong_message(format!("the table has no column {needed:?}")).with_error_place(file);
-            return Err(error.with_advice(ErrorRemedy::command_remedy(
-                "a table of answers has one answer in each row, under the names of the answers' JSON; one with a participant in each row needs --columns",
-            )));
+            return Err(error.with_command_advice("a table of answers has one answer in each row, under the names of the answers' JSON; one with a participant in each row needs --columns"));
         }
     }
     let is_known = |title: &String| {

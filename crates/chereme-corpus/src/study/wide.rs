@@ -13,7 +13,6 @@
 
 use std::collections::BTreeMap;
 
-use chereme_sign::ErrorRemedy;
 use chereme_sign::text::{did_you_mean, fold_text, nearest_candidate};
 use serde::Serialize;
 
@@ -255,11 +254,8 @@ fn answered_trial_place<'a>(
             shorten_message_text(condition),
             role.trial_role_name()
         );
-        return Err(
-            CorpusError::from_wrong_message(message).with_advice(ErrorRemedy::command_remedy(
-                "`chereme study show CORPUS NAME` lists the trials",
-            )),
-        );
+        return Err(CorpusError::from_wrong_message(message)
+            .with_command_advice("`chereme study show CORPUS NAME` lists the trials"));
     };
     if !plan.questions_of_trial(trial).any(|asked| asked.name == question) {
         let asked_names = plan.questions_of_trial(trial).map(|asked| asked.name.as_str());

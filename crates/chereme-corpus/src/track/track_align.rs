@@ -4,7 +4,6 @@ use chereme_analysis::align::{self, TimedSignal as Samples};
 use chereme_motion::anatomy::BodyPart;
 use chereme_motion::glam::DVec3;
 use chereme_motion::{BodySide, CurveTrack, MarkerTrack};
-use chereme_sign::ErrorRemedy;
 use rusqlite::Connection;
 use serde::Serialize;
 
@@ -142,9 +141,7 @@ fn unknown_channel_error(wanted: &str, names: &[String]) -> CorpusError {
     let near = chereme_sign::text::did_you_mean(nearest_name);
     CorpusError::from_wrong_message(format!("the track has no {wanted:?}{near}"))
         .with_error_place(wanted)
-        .with_advice(ErrorRemedy::command_remedy(
-            "`chereme list CORPUS tracks` lists tracks; export one as .csv to see its channels",
-        ))
+        .with_command_advice("`chereme list CORPUS tracks` lists tracks; export one as .csv to see its channels")
 }
 
 /// Returns the indices of the wanted names; those of `usual` if none is wanted, or all.

@@ -179,9 +179,7 @@ fn choose_marker_track(
     marker_track.cloned().ok_or_else(|| {
         CorpusError::from_wrong_message(format!("{recording:?} has no track of markers"))
             .with_error_place(recording)
-            .with_advice(ErrorRemedy::command_remedy(
-                "import a .c3d or .trc file into it: chereme import CORPUS FILE --into recording:3",
-            ))
+            .with_command_advice("import a .c3d or .trc file into it: chereme import CORPUS FILE --into recording:3")
     })
 }
 
@@ -195,9 +193,7 @@ fn fit_target_skeleton(connection: &Connection, to: Option<&RowName>) -> CorpusR
     stored_recordings::body_track(connection, row.id)?.ok_or_else(|| {
         CorpusError::from_wrong_message(format!("{:?} has no skeleton", row.name))
             .with_error_place(&row.name)
-            .with_advice(ErrorRemedy::command_remedy(
-                "name a recording of movement, or leave --to out for the program's own body",
-            ))
+            .with_command_advice("name a recording of movement, or leave --to out for the program's own body")
     })?;
     let track = movement::MotionTrack::open_motion_track(connection, row.id)?;
     let clip = track.read_motion_clip(connection, 0..1, &movement::ChannelGroup::ALL_CHANNEL_GROUPS)?;

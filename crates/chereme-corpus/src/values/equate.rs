@@ -4,7 +4,7 @@ use std::cmp::{Ordering, Reverse};
 use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_sign::text::fold_text;
-use chereme_sign::{ComponentField, ComponentInventory, ErrorRemedy, InventoryValue, SignComponent};
+use chereme_sign::{ComponentField, ComponentInventory, InventoryValue, SignComponent};
 use serde::Serialize;
 
 use super::require_inventory_value;
@@ -89,9 +89,7 @@ impl Corpus {
                 return Err(
                     CorpusError::from_wrong_message(format!("{name} is one with no other value"))
                         .with_error_place(value)
-                        .with_advice(ErrorRemedy::command_remedy(
-                            "`chereme inventory CORPUS equate` lists the values that are one",
-                        )),
+                        .with_command_advice("`chereme inventory CORPUS equate` lists the values that are one"),
                 );
             };
             let left: Vec<&ValueName> = group.iter().filter(|member| **member != name).collect();
@@ -158,9 +156,7 @@ fn find_named_value<'i>(all: &'i [StoredInventory], text: &str) -> CorpusResult<
         return Err(
             CorpusError::from_wrong_message(format!("{text:?} names no inventory of the corpus"))
                 .with_error_place(text)
-                .with_advice(ErrorRemedy::command_remedy(
-                    "write INVENTORY/VALUE; `chereme list CORPUS inventories` lists them",
-                )),
+                .with_command_advice("write INVENTORY/VALUE; `chereme list CORPUS inventories` lists them"),
         );
     };
     Ok((inventory, require_inventory_value(inventory, &value)?))
@@ -183,9 +179,7 @@ fn refuse_kept_apart(all: &[StoredInventory], field: &ComponentField, joined: &[
             );
             return Err(CorpusError::from_wrong_message(text)
                 .with_error_place(&stored.inventory.id)
-                .with_advice(ErrorRemedy::command_remedy(
-                    "if they are one there, too, merge them first: `chereme inventory CORPUS merge-value INVENTORY VALUE OTHER`",
-                )));
+                .with_command_advice("if they are one there, too, merge them first: `chereme inventory CORPUS merge-value INVENTORY VALUE OTHER`"));
         }
     }
     Ok(())

@@ -63,10 +63,7 @@ impl StudyReport {
         // Nothing is written if a file is there already.
         let mut there = files.iter().map(|(name, _)| to.join(name));
         if let Some(path) = there.find(|path| !force && path.exists()) {
-            return Err(CorpusError::from_file_failure(
-                path,
-                std::io::ErrorKind::AlreadyExists.into(),
-            ));
+            return Err(CorpusError::from_existing_file(path));
         }
         let mut written = Vec::with_capacity(files.len());
         for (name, bytes) in files {
