@@ -41,6 +41,9 @@ pub mod transcribe;
 mod golden;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+#[path = "../../../tests/shared/tuned_faults.rs"]
+mod tuned_faults;
 
 pub use kinematics::{ClipKinematicCurves, compute_kinematic_curves};
 pub use measure::measure_hand_movement;

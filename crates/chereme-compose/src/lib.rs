@@ -25,7 +25,7 @@
 //! | [`outcome`] | movement with its notes and its report |
 //! | [`notation`] | movement from HamNoSys and SiGML |
 //!
-//! The rest is reached through functions: [`resolve_recipe`] and [`restore_recipe_inputs`], [`evaluate_recipe`],
+//! The rest is reached through functions: [`resolve_recipe`], [`evaluate_recipe`],
 //! [`value_in`] and [`letters_in`] for a corpus's answers, [`learn_course`] and [`bridge_captured_stretch`] for courses
 //! learned from captured transitions.
 //!
@@ -72,6 +72,9 @@ mod testing;
 mod tests;
 mod text;
 mod transfer;
+#[cfg(test)]
+#[path = "../../../tests/shared/tuned_faults.rs"]
+mod tuned_faults;
 pub mod units;
 mod work;
 
@@ -96,7 +99,7 @@ pub use outcome::{
 pub use poses::{ExactHandRotations, HandPose, PoseOrigin};
 pub use recipe::{MAX_RECIPE_DEPTH, MOST_PARTS, RECIPE_TREE_VERSION, Recipe};
 pub use recipe_inputs::{ExpressionInput, LetterInput, MaterialInput, PlaceInput, RecipeInput, RecipeInputs};
-pub use resolve::{ResolvedRecipe, resolve_recipe, restore_recipe_inputs};
+pub use resolve::{ResolvedRecipe, resolve_recipe};
 pub use sources::{
     AlphabetLetter, BodyInput, BodyRelativePlace, ComponentValue, ExpressionSource, HeldValue, LearnedCourse,
     LearnedProfile, LearnedReaches, LetterStroke, MedianTime, MovementMaterial, RecipeSources, SpellingTimes,

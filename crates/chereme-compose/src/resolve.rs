@@ -33,7 +33,7 @@ pub struct ResolvedRecipe {
 }
 
 impl ResolvedRecipe {
-    /// Returns the chosen inputs, to be stored with the recipe; see [`restore_recipe_inputs`].
+    /// Returns the chosen inputs, to be stored with the recipe.
     #[must_use]
     pub fn resolved_inputs(&self) -> &RecipeInputs {
         &self.inputs
@@ -73,54 +73,6 @@ pub(crate) fn resolve_after_change(
     let former = before.map(|before| FormerPart::from_former_recipe(&before.recipe));
     resolver.resolve_node(&recipe.root, &RecipePath::default(), former)?;
     let RecipeAnswers { inputs, materials } = resolver.answers;
-    Ok(ResolvedRecipe {
-        recipe: recipe.clone(),
-        inputs,
-        materials,
-    })
-}
-
-/// Restores earlier choices: loads the movement that `inputs` name and nothing else.
-///
-/// # Errors
-/// [`MakeError`] if a source is gone or its movement has changed.
-pub fn restore_recipe_inputs(
-    recipe: &Recipe,
-    inputs: RecipeInputs,
-    sources: &dyn RecipeSources,
-) -> Result<ResolvedRecipe, MakeError> {
-    let mut materials = BTreeMap::new();
-    for (path, input) in &inputs.0 {
-        let RecipeInput::Material(stored) = input else {
-            continue;
-        };
-        let fault = |cause| MakeError {
-            path: path.clone(),
-            step: stored.address.clone(),
-            cause,
-        };
-        let mut material = sources
-            .find_material(&stored.address)
-            .map_err(|error| fault(error.into()))?;
-        // A recording that only gave its body at rest is such a body again.
-        if material.hash != stored.hash
-            && let Ok(body) = sources.stage(Some(&stored.address))
-        {
-            material = body;
-        }
-        // The same name may stand for new movement, from which another sign would come.
-        if material.hash != stored.hash {
-            let address = stored.address.clone();
-            return Err(fault(StepError::Changed { address }));
-        }
-        if material.clip.clip_frame_count() == 0 {
-            return Err(fault(StepError::Empty(material.address)));
-        }
-        material.held.clone_from(&stored.held);
-        material.gloss.clone_from(&stored.gloss);
-        material.handedness = stored.handedness;
-        materials.insert(path.clone(), Arc::new(material));
-    }
     Ok(ResolvedRecipe {
         recipe: recipe.clone(),
         inputs,

@@ -12,7 +12,10 @@ use chereme_motion::{
 use chereme_sign::milestones::{ExpressionFunction, ExpressionMilestones};
 use chereme_sign::{ComponentReading, SignComponent, SignerHandedness};
 
-use crate::error::SourceError;
+use crate::error::{MakeError, SourceError, StepError};
+use crate::recipe::Recipe;
+use crate::recipe_inputs::{RecipeInput, RecipeInputs};
+use crate::resolve::ResolvedRecipe;
 use crate::sources::*;
 
 /// The local axes of a body's joints.
@@ -433,4 +436,52 @@ pub(crate) fn farthest(a: &Clip, b: &Clip) -> f64 {
 /// Returns the model-space posture of a frame.
 pub(crate) fn model(clip: &Clip, frame: usize) -> ModelPose {
     clip.model_pose(frame)
+}
+
+/// Restores earlier choices: loads the movement that `inputs` name and nothing else.
+///
+/// # Errors
+/// [`MakeError`] if a source is gone or its movement has changed.
+pub(crate) fn restore_recipe_inputs(
+    recipe: &Recipe,
+    inputs: RecipeInputs,
+    sources: &dyn RecipeSources,
+) -> Result<ResolvedRecipe, MakeError> {
+    let mut materials = BTreeMap::new();
+    for (path, input) in &inputs.0 {
+        let RecipeInput::Material(stored) = input else {
+            continue;
+        };
+        let fault = |cause| MakeError {
+            path: path.clone(),
+            step: stored.address.clone(),
+            cause,
+        };
+        let mut material = sources
+            .find_material(&stored.address)
+            .map_err(|error| fault(error.into()))?;
+        // A recording that only gave its body at rest is such a body again.
+        if material.hash != stored.hash
+            && let Ok(body) = sources.stage(Some(&stored.address))
+        {
+            material = body;
+        }
+        // The same name may stand for new movement, from which another sign would come.
+        if material.hash != stored.hash {
+            let address = stored.address.clone();
+            return Err(fault(StepError::Changed { address }));
+        }
+        if material.clip.clip_frame_count() == 0 {
+            return Err(fault(StepError::Empty(material.address)));
+        }
+        material.held.clone_from(&stored.held);
+        material.gloss.clone_from(&stored.gloss);
+        material.handedness = stored.handedness;
+        materials.insert(path.clone(), Arc::new(material));
+    }
+    Ok(ResolvedRecipe {
+        recipe: recipe.clone(),
+        inputs,
+        materials,
+    })
 }

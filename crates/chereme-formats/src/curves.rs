@@ -9,9 +9,7 @@ mod live_link;
 mod mediapipe;
 mod packets;
 #[cfg(test)]
-mod tests;
-
-use std::fmt::Write as _;
+pub(crate) mod tests;
 
 use chereme_motion::column::{FileNumber, FrameNumberColumn};
 use chereme_motion::{CurveTrack, FrameRate, FrameTimes, RecordingInstant, ScalarCurve};
@@ -306,32 +304,4 @@ fn curve_row_times(
     let times = FrameTimes::from_listed_seconds(FrameNumberColumn::from_double_floats(from_first))
         .map_err(|error| CurveError::Track(error.to_string()))?;
     Ok((times, offset))
-}
-
-/// Writes a track of curves as CSV: a column of seconds, then one for each curve, `name [unit]`.
-#[must_use]
-pub fn write_curves_csv(curves: &CurveTrack, offset: RecordingInstant) -> String {
-    let quoted = |name: &str| match name.contains([',', '"', '\n']) {
-        true => format!("\"{}\"", name.replace('"', "\"\"")),
-        false => name.to_owned(),
-    };
-    let mut out = String::from("time [s]");
-    for curve in curves.track_curves() {
-        let unit = if curve.unit.is_empty() {
-            String::new()
-        } else {
-            format!(" [{}]", curve.unit)
-        };
-        let _ = write!(out, ",{}", quoted(&format!("{}{unit}", curve.name)));
-    }
-    out.push('\n');
-    for frame in 0..curves.curve_frame_count() {
-        let seconds = curves.curve_times().frame_time_instant(frame).instant_seconds() + offset.instant_seconds();
-        let _ = write!(out, "{seconds:.6}");
-        for curve in curves.track_curves() {
-            let _ = write!(out, ",{}", curve.values.column_text_at(frame).unwrap_or_default());
-        }
-        out.push('\n');
-    }
-    out
 }

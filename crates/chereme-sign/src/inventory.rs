@@ -250,20 +250,6 @@ impl InventoryValue {
         self.pose.or_else(named)
     }
 
-    /// Returns whether the value has every feature wanted, and lacks those that start with `-`; case and accents do
-    /// not count.
-    #[must_use]
-    pub fn matches_features(&self, wanted: &[&str]) -> bool {
-        wanted.iter().all(|wanted| {
-            let (absent, name) = match wanted.strip_prefix('-') {
-                Some(name) => (true, name),
-                None => (false, *wanted),
-            };
-            let name = spelling_key(name);
-            self.features.iter().any(|feature| spelling_key(feature) == name) != absent
-        })
-    }
-
     /// Returns every spelling of the value: its id, its aliases, its names.
     pub fn value_spellings(&self) -> impl Iterator<Item = &str> {
         let others = self.aliases.iter().chain(self.names.values());

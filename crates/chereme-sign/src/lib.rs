@@ -54,6 +54,9 @@ pub mod text;
 pub mod tier;
 pub mod token;
 pub mod tuned;
+#[cfg(test)]
+#[path = "../../../tests/shared/tuned_faults.rs"]
+mod tuned_faults;
 pub mod words;
 
 pub use component::{

@@ -14,10 +14,7 @@
 //! # Ok::<(), serde_json::Error>(())
 //! ```
 
-use std::collections::BTreeMap;
-
 use serde::de::{Deserialize, DeserializeOwned, Deserializer};
-use serde_json::Value;
 
 #[doc(hidden)]
 pub use chereme_data::schema_text;
@@ -73,43 +70,9 @@ macro_rules! tuned_numbers {
 
 pub use tuned_numbers;
 
-/// Lists the numbers of a document that lack a meaning, or whose unit the document's description does not explain.
-#[must_use]
-pub fn tuned_document_faults(text: &str) -> Vec<String> {
-    let mut groups: BTreeMap<String, Value> = match read_tuned_document(text) {
-        Ok(groups) => groups,
-        Err(error) => return vec![error.to_string()],
-    };
-    let mut fault_texts = Vec::new();
-    if groups.remove("version").is_none() {
-        fault_texts.push("no version".to_owned());
-    }
-    let description = groups.remove("description").unwrap_or_default().to_string();
-    for (group, numbers) in groups {
-        let numbers: BTreeMap<String, (Value, String, String)> = match serde_json::from_value(numbers) {
-            Ok(numbers) => numbers,
-            Err(error) => {
-                fault_texts.push(format!("{group}: {error}"));
-                continue;
-            }
-        };
-        for (name, (_, units, meaning)) in numbers {
-            for unit in units.split(", ") {
-                if !description.contains(&format!(" {unit} ")) {
-                    fault_texts.push(format!("{group}.{name}: the unit {unit}"));
-                }
-            }
-            if meaning.len() < 14 {
-                fault_texts.push(format!("{group}.{name}: the meaning {meaning}"));
-            }
-        }
-    }
-    fault_texts
-}
-
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use crate::tuned_faults::tuned_document_faults;
 
     #[test]
     fn numbers_without_a_known_unit_or_a_meaning_are_listed() {

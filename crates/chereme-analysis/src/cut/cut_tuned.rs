@@ -74,7 +74,7 @@ mod tests {
 
     #[test]
     fn every_number_of_cutting_has_a_unit_and_a_meaning() {
-        let faults = chereme_sign::tuned::tuned_document_faults(DOCUMENT);
+        let faults = crate::tuned_faults::tuned_document_faults(DOCUMENT);
         assert_eq!(faults, Vec::<String>::new());
         let heads = &tuned().heads;
         for head in [&heads.begin, &heads.end] {

@@ -233,7 +233,7 @@ mod tests {
     #[test]
     fn every_number_has_a_unit_and_a_meaning_of_its_own() {
         assert_eq!(
-            chereme_sign::tuned::tuned_document_faults(DOCUMENT),
+            crate::tuned_faults::tuned_document_faults(DOCUMENT),
             Vec::<String>::new()
         );
         assert!(tuned().place.touch.iter().all(|it| *it > 0.0));

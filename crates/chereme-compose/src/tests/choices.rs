@@ -94,7 +94,7 @@ fn a_resolved_recipe_is_stored_and_gives_the_same_movement() {
         let inputs: crate::RecipeInputs = serde_json::from_str(&json).expect("json");
         let mut changed = Shelf::new();
         changed.materials.get_mut("LIMACE").expect("there").held.clear();
-        let again = crate::restore_recipe_inputs(&recipe, inputs.clone(), &changed).expect("restored");
+        let again = crate::testing::restore_recipe_inputs(&recipe, inputs.clone(), &changed).expect("restored");
         let (a, b) = (
             evaluate_recipe(&resolved).expect(text),
             evaluate_recipe(&again).expect(text),
@@ -103,7 +103,7 @@ fn a_resolved_recipe_is_stored_and_gives_the_same_movement() {
         for material in changed.materials.values_mut() {
             material.hash.push('x');
         }
-        let error = crate::restore_recipe_inputs(&recipe, inputs, &changed).expect_err("changed");
+        let error = crate::testing::restore_recipe_inputs(&recipe, inputs, &changed).expect_err("changed");
         assert!(matches!(error.cause, StepError::Changed { .. }));
     }
 }

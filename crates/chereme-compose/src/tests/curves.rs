@@ -8,9 +8,8 @@ use crate::sources::{
     AlphabetLetter, ComponentValue, LearnedProfile, MovementMaterial, RecipeSources, SpellingTimes, TokenExample,
 };
 use crate::testing::Shelf;
-use crate::{
-    BodyLanguageChanges, LanguageValue, Recipe, RecipeInput, evaluate_recipe, resolve_recipe, restore_recipe_inputs,
-};
+use crate::testing::restore_recipe_inputs;
+use crate::{BodyLanguageChanges, LanguageValue, Recipe, RecipeInput, evaluate_recipe, resolve_recipe};
 use chereme_sign::SignComponent;
 
 fn ramp(name: &str, frames: usize) -> GeneratedCurve {

@@ -5,8 +5,9 @@ use chereme_sign::milestones::{ExpressionFunction, ExpressionMilestones};
 
 use crate::outcome::{GeneratedCurve, GeneratedMovement};
 use crate::testing::Shelf;
+use crate::testing::restore_recipe_inputs;
 use crate::work::JointGroup;
-use crate::{Recipe, StepError, evaluate_recipe, resolve_recipe, restore_recipe_inputs};
+use crate::{Recipe, StepError, evaluate_recipe, resolve_recipe};
 
 const OWN: [i64; 5] = [100, 250, 600, 800, 950];
 

@@ -2,9 +2,10 @@
 
 use super::joining::{along_one_axis, with_armature, with_rolled_thumbs, with_toes};
 use super::*;
+use crate::Recipe;
 use crate::sources::MovementMaterial;
+use crate::testing::restore_recipe_inputs;
 use crate::testing::{Axes, skeleton};
-use crate::{Recipe, restore_recipe_inputs};
 use chereme_motion::BodyAnatomy;
 use std::sync::Arc;
 

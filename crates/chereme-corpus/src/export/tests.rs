@@ -246,8 +246,10 @@ type Coded = (String, Vec<(String, String)>, Vec<String>);
 fn codings(corpus: &Corpus) -> Vec<Coded> {
     let connection = corpus.store.read_connection();
     let mut all = Vec::new();
-    for sign in signs::load_sign_rows(connection).expect("signs") {
-        let tokens = signs::tokens_of_sign(connection, sign.id).expect("tokens");
+    let listed = corpus.list_rows(ListKind::Signs, &ListFilter::default());
+    for sign in listed.expect("listed").rows {
+        let id = sign["id"].as_i64().expect("a row");
+        let tokens = signs::tokens_of_sign(connection, id).expect("tokens");
         let mut values: Vec<String> = tokens
             .iter()
             .flat_map(|token| signs::load_token_values(connection, token.id).expect("values"))
@@ -260,9 +262,10 @@ fn codings(corpus: &Corpus) -> Vec<Coded> {
             })
             .collect();
         values.sort();
-        let mut texts = sign.texts;
+        let mut texts = signs::list_sign_translations(connection, id).expect("translations");
         texts.sort();
-        all.push((sign.gloss, texts, values));
+        let gloss = sign["gloss"].as_str().expect("a gloss").to_owned();
+        all.push((gloss, texts, values));
     }
     all
 }

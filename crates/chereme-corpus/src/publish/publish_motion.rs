@@ -292,7 +292,7 @@ fn busier(clip: &Clip, anatomy: &BodyAnatomy) -> BodySide {
 
 #[cfg(test)]
 mod tests {
-    use super::super::codes::CodeReader;
+    use super::super::codes::tests::CodeReader;
     use super::*;
     use crate::starter_signs;
 

@@ -1,6 +1,35 @@
 //! Tests of the readers of face captures and curves: each format, hostile bytes, and other people's files.
 
+use std::fmt::Write as _;
+
 use super::*;
+
+/// Writes a track of curves as CSV: a column of seconds, then one for each curve, `name [unit]`.
+pub(crate) fn write_curves_csv(curves: &CurveTrack, offset: RecordingInstant) -> String {
+    let quoted = |name: &str| match name.contains([',', '"', '\n']) {
+        true => format!("\"{}\"", name.replace('"', "\"\"")),
+        false => name.to_owned(),
+    };
+    let mut out = String::from("time [s]");
+    for curve in curves.track_curves() {
+        let unit = if curve.unit.is_empty() {
+            String::new()
+        } else {
+            format!(" [{}]", curve.unit)
+        };
+        let _ = write!(out, ",{}", quoted(&format!("{}{unit}", curve.name)));
+    }
+    out.push('\n');
+    for frame in 0..curves.curve_frame_count() {
+        let seconds = curves.curve_times().frame_time_instant(frame).instant_seconds() + offset.instant_seconds();
+        let _ = write!(out, "{seconds:.6}");
+        for curve in curves.track_curves() {
+            let _ = write!(out, ",{}", curve.values.column_text_at(frame).unwrap_or_default());
+        }
+        out.push('\n');
+    }
+    out
+}
 
 fn curves(text: &str) -> (CurveTrack, RecordingInstant, Vec<ImportFinding>) {
     let (tracks, findings) = read_curves(text.as_bytes()).unwrap_or_else(|error| panic!("{error}\n{text}"));

@@ -206,10 +206,10 @@ fn golden_files_of_curves() {
                 findings(&mut out, &found);
                 for track in &read.tracks {
                     if let CapturedTrackContent::Curves(it) = &track.content {
-                        put(&mut out, crate::curves::write_curves_csv(it, track.offset));
+                        put(&mut out, crate::curves::tests::write_curves_csv(it, track.offset));
                         put(
                             &mut out,
-                            crate::curves::write_curves_csv(it, RecordingInstant::from_millis(250)),
+                            crate::curves::tests::write_curves_csv(it, RecordingInstant::from_millis(250)),
                         );
                     }
                 }
