@@ -6,6 +6,7 @@ use std::str::FromStr;
 use rusqlite::{Connection, params};
 use serde::{Deserialize, Serialize};
 
+use crate::db::cached_sql::CachedSql;
 use crate::error::{CorpusError, CorpusResult};
 
 /// The people who may see something, from the fewest to the most.
@@ -75,42 +76,31 @@ pub(crate) fn of_recordings(connection: &Connection) -> CorpusResult<Vec<Consent
 }
 
 fn read_consent_columns(connection: &Connection, sql: &str) -> CorpusResult<Vec<ConsentColumn>> {
-    let mut statement = connection.prepare_cached(sql)?;
-    let rows = statement.query_map([], |row| {
+    connection.read_rows(sql, [], |row| {
         Ok(ConsentColumn {
             id: row.get(0)?,
             name: row.get(1)?,
             consent: row.get(2)?,
         })
-    })?;
-    Ok(rows.collect::<rusqlite::Result<_>>()?)
+    })
 }
 
 /// Stores the consent of a signer.
 pub(crate) fn set_of_signer(connection: &Connection, id: i64, consent: Option<&str>) -> CorpusResult<()> {
-    connection
-        .prepare_cached("UPDATE signer SET consent = ?2 WHERE id = ?1")?
-        .execute(params![id, consent])?;
-    Ok(())
+    connection.change_rows("UPDATE signer SET consent = ?2 WHERE id = ?1", params![id, consent])
 }
 
 /// Stores the consent that belongs to a recording.
 pub(crate) fn set_of_recording(connection: &Connection, id: i64, consent: Option<&str>) -> CorpusResult<()> {
-    connection
-        .prepare_cached("UPDATE recording SET consent = ?2 WHERE id = ?1")?
-        .execute(params![id, consent])?;
-    Ok(())
+    connection.change_rows("UPDATE recording SET consent = ?2 WHERE id = ?1", params![id, consent])
 }
 
 /// Returns the participants that the tiers of recordings name: recording and name.
 pub(crate) fn list_tier_participants(connection: &Connection) -> CorpusResult<Vec<(i64, String)>> {
     // Annotation files pad participants with blanks or leave them empty; neither names another person.
-    let mut statement = connection.prepare_cached(
-        "SELECT DISTINCT recording_id, trim(participant) FROM tier
-         WHERE trim(coalesce(participant, '')) <> '' ORDER BY 1, 2",
-    )?;
-    let rows = statement.query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?;
-    Ok(rows.collect::<rusqlite::Result<_>>()?)
+    let sql = "SELECT DISTINCT recording_id, trim(participant) FROM tier
+         WHERE trim(coalesce(participant, '')) <> '' ORDER BY 1, 2";
+    connection.read_rows(sql, [], |row| Ok((row.get(0)?, row.get(1)?)))
 }
 
 /// Returns the inputs of recipes: the generated recording, and the recording that it takes movement from; without one
@@ -121,31 +111,25 @@ pub(crate) fn list_recipe_movement_inputs(
     own: &str,
 ) -> CorpusResult<Vec<(i64, Option<i64>, bool)>> {
     // The left join keeps the recipe without any input: it takes nobody's movement, which is known.
-    let mut statement = connection.prepare_cached(
-        "SELECT p.recording_id, i.recording_id,
+    let sql = "SELECT p.recording_id, i.recording_id,
              i.id IS NULL OR i.token_id IS NOT NULL OR i.address = ?1
-         FROM recipe p LEFT JOIN recipe_input i ON p.id = i.recipe_id ORDER BY p.recording_id, i.id",
-    )?;
-    let rows = statement.query_map([own], |row| Ok((row.get(0)?, row.get(1)?, row.get(2)?)))?;
-    Ok(rows.collect::<rusqlite::Result<_>>()?)
+         FROM recipe p LEFT JOIN recipe_input i ON p.id = i.recipe_id ORDER BY p.recording_id, i.id";
+    connection.read_rows(sql, [own], |row| Ok((row.get(0)?, row.get(1)?, row.get(2)?)))
 }
 
 /// Returns the generated recordings whose recipes do not name the body that moves: they have no input, or a notation
 /// that was stored without its body, as earlier versions of the program did.
 pub(crate) fn without_body(connection: &Connection) -> CorpusResult<Vec<i64>> {
     // An input with a token and a hash is a notation; only its material in the document can name the body.
-    let mut statement = connection.prepare_cached(
-        "SELECT DISTINCT p.recording_id FROM recipe p
+    let sql = "SELECT DISTINCT p.recording_id FROM recipe p
          LEFT JOIN recipe_input i ON i.recipe_id = p.id
          WHERE i.id IS NULL OR (i.recording_id IS NULL AND i.token_id IS NOT NULL
              AND i.hash <> '' AND NOT EXISTS (
              SELECT 1 FROM json_each(p.document, '$.inputs') it
              WHERE it.value ->> '$.material.address' = i.address
                  AND it.value ->> '$.material.body' IS NOT NULL))
-         ORDER BY p.recording_id",
-    )?;
-    let rows = statement.query_map([], |row| row.get(0))?;
-    Ok(rows.collect::<rusqlite::Result<_>>()?)
+         ORDER BY p.recording_id";
+    connection.read_rows(sql, [], |row| row.get(0))
 }
 
 /// Returns the generated recordings whose documents name tokens that gave a posture or a place, where the inputs of
@@ -153,17 +137,14 @@ pub(crate) fn without_body(connection: &Connection) -> CorpusResult<Vec<i64>> {
 /// is still there.
 pub(crate) fn unnamed_givers(connection: &Connection) -> CorpusResult<Vec<(i64, Option<i64>)>> {
     // Postures and places are kept as addresses deep in the JSON; 7 is the place after the letters `token:`.
-    let mut statement = connection.prepare_cached(
-        "SELECT DISTINCT p.recording_id, t.recording_id FROM recipe p, json_tree(p.document, '$.inputs') it
+    let sql = "SELECT DISTINCT p.recording_id, t.recording_id FROM recipe p, json_tree(p.document, '$.inputs') it
          LEFT JOIN token t ON t.id = CAST(substr(it.atom, 7) AS INTEGER)
          WHERE it.type = 'text' AND it.atom LIKE 'token:%'
              AND it.key IN ('named', 'same-signer', 'other-signer', 'sign', 'from')
              AND (t.id IS NULL OR t.recording_id IS NOT NULL)
              AND NOT EXISTS (SELECT 1 FROM recipe_input i WHERE i.recipe_id = p.id AND i.hash = '')
-         ORDER BY 1, 2",
-    )?;
-    let rows = statement.query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?;
-    Ok(rows.collect::<rusqlite::Result<_>>()?)
+         ORDER BY 1, 2";
+    connection.read_rows(sql, [], |row| Ok((row.get(0)?, row.get(1)?)))
 }
 
 /// The blocks of both arms of a recording's body that begin at a frame.
@@ -175,18 +156,15 @@ pub(crate) struct ArmBlocks {
 
 /// Returns the blocks of both arms, by track and frame.
 pub(crate) fn list_arm_blocks(connection: &Connection) -> CorpusResult<Vec<ArmBlocks>> {
-    let mut statement = connection.prepare_cached(
-        "SELECT t.recording_id, r.first_frame, r.hash, l.hash FROM track_block r
+    let sql = "SELECT t.recording_id, r.first_frame, r.hash, l.hash FROM track_block r
          JOIN track_block l ON l.track_id = r.track_id AND l.channel_group = 'left-arm' AND l.first_frame = r.first_frame
          JOIN track t ON t.id = r.track_id
-         WHERE r.channel_group = 'right-arm' ORDER BY r.track_id, r.first_frame",
-    )?;
-    let rows = statement.query_map([], |row| {
+         WHERE r.channel_group = 'right-arm' ORDER BY r.track_id, r.first_frame";
+    connection.read_rows(sql, [], |row| {
         Ok(ArmBlocks {
             recording: row.get(0)?,
             first_frame: row.get(1)?,
             hashes: vec![row.get(2)?, row.get(3)?],
         })
-    })?;
-    Ok(rows.collect::<rusqlite::Result<_>>()?)
+    })
 }

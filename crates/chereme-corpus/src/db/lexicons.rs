@@ -1,10 +1,11 @@
 //! Rows of lexicons: the collections of entries to which signs belong.
 
 use chereme_sign::text::fold_text;
-use rusqlite::{Connection, OptionalExtension, Row, params};
+use rusqlite::{Connection, Row, params};
 use serde::Serialize;
 
 use super::stored_tiers;
+use crate::db::cached_sql::CachedSql;
 use crate::error::CorpusResult;
 
 /// A lexicon: the signs of one language as somebody published them.
@@ -42,9 +43,7 @@ fn lexicon_row(row: &Row<'_>) -> rusqlite::Result<LexiconRow> {
 
 /// Returns all lexicons by name.
 pub(crate) fn load_lexicon_rows(connection: &Connection) -> CorpusResult<Vec<LexiconRow>> {
-    let mut statement = connection.prepare_cached(&format!("{SELECT_LEXICON_SQL} ORDER BY name"))?;
-    let rows = statement.query_map([], lexicon_row)?;
-    Ok(rows.collect::<rusqlite::Result<_>>()?)
+    connection.read_rows(&format!("{SELECT_LEXICON_SQL} ORDER BY name"), [], lexicon_row)
 }
 
 /// Returns the lexicon of this name, otherwise the only one whose name differs from it in case and accents alone.
@@ -68,17 +67,12 @@ pub(crate) fn insert_lexicon(connection: &Connection, name: &str) -> CorpusResul
         || format!("lexicon {:?}", name.chars().take(40).collect::<String>()),
         name,
     )?;
-    connection
-        .prepare_cached("INSERT INTO lexicon (name) VALUES (?1)")?
-        .execute([name])?;
+    connection.change_rows("INSERT INTO lexicon (name) VALUES (?1)", [name])?;
     let id = connection.last_insert_rowid();
     // Before its first lexicon, a corpus has nothing to which a recording can be linked.
-    connection
-        .prepare_cached(
-            "UPDATE recording SET lexicon_id = ?1
-             WHERE lexicon_id IS NULL AND (SELECT count(*) FROM lexicon) = 1",
-        )?
-        .execute([id])?;
+    let sql = "UPDATE recording SET lexicon_id = ?1
+             WHERE lexicon_id IS NULL AND (SELECT count(*) FROM lexicon) = 1";
+    connection.change_rows(sql, [id])?;
     Ok(id)
 }
 
@@ -97,21 +91,18 @@ pub(crate) fn free_lexicon_name(connection: &Connection, name: &str) -> CorpusRe
 
 /// Writes the fields of a lexicon.
 pub(crate) fn update_lexicon(connection: &Connection, row: &LexiconRow) -> CorpusResult<()> {
-    connection
-        .prepare_cached(
-            "UPDATE lexicon SET name = ?2, language = ?3, version = ?4, terms = ?5, citation = ?6, notes = ?7
-             WHERE id = ?1",
-        )?
-        .execute(params![
-            row.id,
-            row.name,
-            row.language,
-            row.version,
-            row.terms,
-            row.citation,
-            row.notes
-        ])?;
-    Ok(())
+    let sql = "UPDATE lexicon SET name = ?2, language = ?3, version = ?4, terms = ?5, citation = ?6, notes = ?7
+             WHERE id = ?1";
+    let values = params![
+        row.id,
+        row.name,
+        row.language,
+        row.version,
+        row.terms,
+        row.citation,
+        row.notes
+    ];
+    connection.change_rows(sql, values)
 }
 
 /// Deletes a lexicon without signs, and the links of recordings and files to it.
@@ -121,7 +112,7 @@ pub(crate) fn delete_lexicon(connection: &Connection, id: i64) -> CorpusResult<(
         "UPDATE source_file SET lexicon_id = NULL WHERE lexicon_id = ?1",
         "DELETE FROM lexicon WHERE id = ?1",
     ] {
-        connection.prepare_cached(sql)?.execute([id])?;
+        connection.change_rows(sql, [id])?;
     }
     Ok(())
 }
@@ -132,83 +123,65 @@ pub(crate) fn replace_lexicon(connection: &Connection, gone: i64, kept: i64) -> 
         "UPDATE recording SET lexicon_id = ?2 WHERE lexicon_id = ?1",
         "UPDATE source_file SET lexicon_id = ?2 WHERE lexicon_id = ?1",
     ] {
-        connection.prepare_cached(sql)?.execute([gone, kept])?;
+        connection.change_rows(sql, [gone, kept])?;
     }
     delete_lexicon(connection, gone)
 }
 
 /// Returns the recordings that are linked to a lexicon.
 pub(crate) fn recordings_of_lexicon(connection: &Connection, lexicon: i64) -> CorpusResult<Vec<i64>> {
-    let mut statement = connection.prepare_cached("SELECT id FROM recording WHERE lexicon_id = ?1 ORDER BY id")?;
-    let recordings = statement.query_map([lexicon], |row| row.get(0))?;
-    Ok(recordings.collect::<rusqlite::Result<_>>()?)
+    connection.read_values("SELECT id FROM recording WHERE lexicon_id = ?1 ORDER BY id", [lexicon])
 }
 
 /// Returns the lexicon of a corpus that has only one.
 pub(crate) fn find_sole_lexicon(connection: &Connection) -> CorpusResult<Option<i64>> {
     // Of several lexicons none is more likely than another, which SQL says as NULL.
     let sql = "SELECT CASE count(*) WHEN 1 THEN min(id) END FROM lexicon";
-    Ok(connection.prepare_cached(sql)?.query_row([], |row| row.get(0))?)
+    connection.read_value(sql, [])
 }
 
 /// Returns the lexicon in which the glosses of a recording's tiers are looked up.
 pub(crate) fn lexicon_of_recording(connection: &Connection, recording: i64) -> CorpusResult<Option<i64>> {
     let sql = "SELECT lexicon_id FROM recording WHERE id = ?1";
-    let lexicon = connection
-        .prepare_cached(sql)?
-        .query_row([recording], |row| row.get(0))
-        .optional()?;
+    let lexicon = connection.find_value(sql, [recording])?;
     Ok(lexicon.flatten())
 }
 
 /// Returns the name of the lexicon to which a recording is linked.
 pub(crate) fn lexicon_name_of_recording(connection: &Connection, recording: i64) -> CorpusResult<Option<String>> {
     let sql = "SELECT l.name FROM recording r JOIN lexicon l ON l.id = r.lexicon_id WHERE r.id = ?1";
-    Ok(connection
-        .prepare_cached(sql)?
-        .query_row([recording], |row| row.get(0))
-        .optional()?)
+    connection.find_value(sql, [recording])
 }
 
 /// Links a recording to a lexicon, or to none, and returns whether it was not before.
 pub(crate) fn link_recording(connection: &Connection, recording: i64, lexicon: Option<i64>) -> CorpusResult<bool> {
     let sql = "UPDATE recording SET lexicon_id = ?2 WHERE id = ?1 AND lexicon_id IS NOT ?2";
-    Ok(connection.prepare_cached(sql)?.execute(params![recording, lexicon])? > 0)
+    Ok(connection.count_changes(sql, params![recording, lexicon])? > 0)
 }
 
 /// Returns the lexicon of a sign.
 pub(crate) fn lexicon_of_sign(connection: &Connection, sign: i64) -> CorpusResult<Option<i64>> {
     let sql = "SELECT lexicon_id FROM sign WHERE id = ?1";
-    let lexicon = connection
-        .prepare_cached(sql)?
-        .query_row([sign], |row| row.get(0))
-        .optional()?;
+    let lexicon = connection.find_value(sql, [sign])?;
     Ok(lexicon.flatten())
 }
 
 /// Returns the name of the lexicon of a sign.
 pub(crate) fn lexicon_name_of_sign(connection: &Connection, sign: i64) -> CorpusResult<Option<String>> {
     let sql = "SELECT l.name FROM sign s JOIN lexicon l ON l.id = s.lexicon_id WHERE s.id = ?1";
-    Ok(connection
-        .prepare_cached(sql)?
-        .query_row([sign], |row| row.get(0))
-        .optional()?)
+    connection.find_value(sql, [sign])
 }
 
 /// Notes that the signs of an imported file are entries of a lexicon.
 pub(crate) fn set_file_lexicon(connection: &Connection, file: i64, lexicon: i64) -> CorpusResult<()> {
     let sql = "UPDATE source_file SET lexicon_id = ?2 WHERE id = ?1 AND lexicon_id IS NOT ?2";
-    connection.prepare_cached(sql)?.execute([file, lexicon])?;
-    Ok(())
+    connection.change_rows(sql, [file, lexicon])
 }
 
 /// Returns the lexicon of an imported file.
 pub(crate) fn lexicon_of_file(connection: &Connection, file: i64) -> CorpusResult<Option<i64>> {
     let sql = "SELECT lexicon_id FROM source_file WHERE id = ?1";
-    let lexicon = connection
-        .prepare_cached(sql)?
-        .query_row([file], |row| row.get(0))
-        .optional()?;
+    let lexicon = connection.find_value(sql, [file])?;
     Ok(lexicon.flatten())
 }
 
@@ -241,9 +214,7 @@ const HAS_BARE_GLOSS_SQL: &str =
 /// Returns the glosses of a recording that several entries have and whose annotations do not say which is meant.
 pub(crate) fn bare_glosses_of_recording(connection: &Connection, recording: i64) -> CorpusResult<Vec<String>> {
     let sql = format!("SELECT DISTINCT s.gloss {HAS_BARE_GLOSS_SQL} AND t.recording_id = ?1 ORDER BY 1");
-    let mut statement = connection.prepare_cached(&sql)?;
-    let glosses = statement.query_map([recording], |row| row.get(0))?;
-    Ok(glosses.collect::<rusqlite::Result<_>>()?)
+    connection.read_values(&sql, [recording])
 }
 
 /// Returns what each lexicon holds, by name.

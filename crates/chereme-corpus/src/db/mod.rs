@@ -3,6 +3,7 @@
 //! [`CorpusStore`] is one open connection. Every change goes through [`CorpusStore::run_store_operation`], which runs it
 //! in one transaction, records the rows before and after, and brings the search index along.
 
+mod cached_sql;
 pub(crate) mod consents;
 pub(crate) mod dump;
 pub(crate) mod edits;
@@ -36,6 +37,8 @@ pub(crate) mod stored_spans;
 pub(crate) mod stored_studies;
 pub(crate) mod stored_tiers;
 pub(crate) mod stored_tracks;
+#[cfg(test)]
+mod testing;
 pub(crate) mod unfinished;
 pub(crate) mod upgrade;
 
@@ -47,7 +50,7 @@ use rusqlite::{Connection, TransactionBehavior};
 use self::file_identity::FileIdentity;
 use self::unfinished::UnfinishedFile;
 use crate::error::{CorpusError, CorpusResult};
-use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::progress::{ProgressReceiver, ProgressUnit};
 use crate::words::effect::OperationEffect;
 
 pub(crate) use open::SCHEMA_VERSION;
@@ -177,20 +180,6 @@ impl<D: DerivedData> CorpusStore<D> {
         self.operation_with_progress(progress, |connection, _| work(connection))
     }
 
-    /// Runs the work of a test as an operation with this name; the work returns its summary.
-    #[cfg(test)]
-    pub(crate) fn named_operation<T>(
-        &mut self,
-        name: &str,
-        work: impl FnOnce(&Connection) -> CorpusResult<(T, String)>,
-    ) -> CorpusResult<T> {
-        self.run_store_operation(|connection| {
-            let (value, summary) = work(connection)?;
-            let name = name.to_owned();
-            Ok((value, OperationEffect::SummaryOnly { name, summary }))
-        })
-    }
-
     /// Runs `work` as [`operation`](Self::operation) does, with progress reports; it can be stopped until everything is
     /// stored.
     pub(crate) fn operation_with_progress<T>(
@@ -269,12 +258,7 @@ impl<D: DerivedData> CorpusStore<D> {
             self.index.follow_operation(&transaction, progress)?;
             transaction.execute_batch("DELETE FROM temp.change; DELETE FROM temp.touched;")?;
             // From here on it cannot be stopped.
-            progress.report_step(ProgressStep {
-                task: "storing",
-                done: 0,
-                total: None,
-                unit: ProgressUnit::Items,
-            })?;
+            progress.report_amount(ProgressUnit::Items, "storing", 0, None)?;
             transaction.commit()?;
             Ok(value)
         });

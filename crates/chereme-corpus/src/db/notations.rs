@@ -2,9 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use rusqlite::{Connection, OptionalExtension, Row, params};
+use rusqlite::{Connection, Row, params};
 
 use super::signs::json_list;
+use crate::db::cached_sql::CachedSql;
 use crate::error::CorpusResult;
 
 /// The notation of a token.
@@ -51,38 +52,26 @@ fn notation_row(row: &Row<'_>) -> rusqlite::Result<NotationRow> {
 
 /// Returns the notation of a token.
 pub(crate) fn find_token_notation(connection: &Connection, token: i64) -> CorpusResult<Option<NotationRow>> {
-    Ok(connection
-        .prepare_cached(&format!("{SELECT_NOTATION_SQL} WHERE n.token_id = ?1"))?
-        .query_row([token], notation_row)
-        .optional()?)
+    let sql = format!("{SELECT_NOTATION_SQL} WHERE n.token_id = ?1");
+    connection.find_row(&sql, [token], notation_row)
 }
 
 /// Returns whether any of these tokens has a notation.
 pub(crate) fn has_any_notation(connection: &Connection, tokens: &[i64]) -> CorpusResult<bool> {
     let sql = "SELECT EXISTS (SELECT 1 FROM notation WHERE token_id IN (SELECT value FROM json_each(?1)))";
-    Ok(connection
-        .prepare_cached(sql)?
-        .query_row([json_list(tokens)], |row| row.get(0))?)
+    connection.read_value(sql, [json_list(tokens)])
 }
 
 /// Returns the notations of these tokens, by token.
 pub(crate) fn of_tokens(connection: &Connection, tokens: &[i64]) -> CorpusResult<BTreeMap<i64, NotationRow>> {
     let sql = format!("{SELECT_NOTATION_SQL} WHERE n.token_id IN (SELECT value FROM json_each(?1))");
-    let mut statement = connection.prepare_cached(&sql)?;
-    let rows = statement
-        .query_map([json_list(tokens)], |row| Ok((row.get(1)?, notation_row(row)?)))?
-        .collect::<rusqlite::Result<_>>()?;
-    Ok(rows)
+    connection.read_rows(&sql, [json_list(tokens)], |row| Ok((row.get(1)?, notation_row(row)?)))
 }
 
 /// Returns the notations that came from files of this name or path, by line.
 pub(crate) fn of_file(connection: &Connection, name: &str) -> CorpusResult<Vec<NotationRow>> {
     let sql = format!("{SELECT_NOTATION_SQL} WHERE f.name = ?1 OR f.path = ?1 ORDER BY n.source_file_id, n.line, n.id");
-    let mut statement = connection.prepare_cached(&sql)?;
-    let rows = statement
-        .query_map([name], notation_row)?
-        .collect::<rusqlite::Result<_>>()?;
-    Ok(rows)
+    connection.read_rows(&sql, [name], notation_row)
 }
 
 /// Calls `take` with every notation, in order.
@@ -100,52 +89,38 @@ pub(crate) fn visit_each_notation(
 
 /// Sets the notation of its token; leaves an unchanged one untouched. The row's `id`, `gloss` and `file` are not used.
 pub(crate) fn set_token_notation(connection: &Connection, row: &NotationRow) -> CorpusResult<()> {
-    let Some(old) = find_token_notation(connection, row.token_id)? else {
-        connection
-            .prepare_cached(
-                "INSERT INTO notation (token_id, source_file_id, line, system, text, document)
-                 VALUES (?1, ?2, ?3, ?4, ?5, ?6)",
-            )?
-            .execute(params![
-                row.token_id,
-                row.source_file_id,
-                row.line,
-                row.system,
-                row.text,
-                row.document
-            ])?;
-        return Ok(());
-    };
-    let new = NotationRow {
-        id: old.id,
-        file: old.file.clone(),
-        gloss: old.gloss.clone(),
-        ..row.clone()
-    };
-    // An update that changes nothing would still be recorded by the triggers as a change.
-    if new == old {
-        return Ok(());
-    }
-    connection
-        .prepare_cached(
+    let sql = match find_token_notation(connection, row.token_id)? {
+        None => {
+            "INSERT INTO notation (token_id, source_file_id, line, system, text, document)
+                 VALUES (?1, ?2, ?3, ?4, ?5, ?6)"
+        }
+        Some(old) => {
+            let new = NotationRow {
+                id: old.id,
+                file: old.file.clone(),
+                gloss: old.gloss.clone(),
+                ..row.clone()
+            };
+            // An update that changes nothing would still be recorded by the triggers as a change.
+            if new == old {
+                return Ok(());
+            }
             "UPDATE notation SET source_file_id = ?2, line = ?3, system = ?4, text = ?5, document = ?6
-             WHERE token_id = ?1",
-        )?
-        .execute(params![
-            row.token_id,
-            row.source_file_id,
-            row.line,
-            row.system,
-            row.text,
-            row.document
-        ])?;
-    Ok(())
+                 WHERE token_id = ?1"
+        }
+    };
+    let values = params![
+        row.token_id,
+        row.source_file_id,
+        row.line,
+        row.system,
+        row.text,
+        row.document
+    ];
+    connection.change_rows(sql, values)
 }
 
 /// Deletes the notation of a token, if it has one.
 pub(crate) fn delete_token_notation(connection: &Connection, token: i64) -> CorpusResult<()> {
-    connection
-        .prepare_cached("DELETE FROM notation WHERE token_id = ?1")?
-        .execute([token])?;
-    Ok(())
+    connection.change_rows("DELETE FROM notation WHERE token_id = ?1", [token])
 }

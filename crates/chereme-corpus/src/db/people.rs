@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use super::consents::ConsentAudience;
 use super::stored_recordings::{find_signer, signer_named};
+use crate::db::cached_sql::CachedSql;
 use crate::error::{CorpusError, CorpusResult};
 
 /// The beginning of the name under which queries and tables know what is said of a signer: `signer.region`.
@@ -79,29 +80,27 @@ fn select_people(
     which: &str,
     parameters: impl rusqlite::Params,
 ) -> CorpusResult<Vec<PersonContents>> {
-    let mut statement = connection.prepare_cached(&format!(
+    let sql = format!(
         "SELECT g.id, g.name, g.handedness, g.notes,
              (SELECT count(*) FROM recording WHERE signer_id = g.id),
              (SELECT count(*) FROM tier WHERE participant = g.name),
              (SELECT count(*) FROM tier WHERE annotator = g.name)
          FROM signer g {which}"
-    ))?;
-    let mut people: Vec<PersonContents> = statement
-        .query_map(parameters, |row| {
-            let count = |at| Ok::<_, rusqlite::Error>(row.get::<_, i64>(at)?.unsigned_abs());
-            Ok(PersonContents {
-                id: row.get(0)?,
-                name: row.get(1)?,
-                aliases: Vec::new(),
-                handedness: row.get(2)?,
-                notes: row.get(3)?,
-                attributes: Vec::new(),
-                recordings: count(4)?,
-                participant_tiers: count(5)?,
-                annotator_tiers: count(6)?,
-            })
-        })?
-        .collect::<rusqlite::Result<_>>()?;
+    );
+    let mut people: Vec<PersonContents> = connection.read_rows(&sql, parameters, |row| {
+        let count = |at| Ok::<_, rusqlite::Error>(row.get::<_, i64>(at)?.unsigned_abs());
+        Ok(PersonContents {
+            id: row.get(0)?,
+            name: row.get(1)?,
+            aliases: Vec::new(),
+            handedness: row.get(2)?,
+            notes: row.get(3)?,
+            attributes: Vec::new(),
+            recordings: count(4)?,
+            participant_tiers: count(5)?,
+            annotator_tiers: count(6)?,
+        })
+    })?;
     for person in &mut people {
         person.aliases = load_person_aliases(connection, person.id)?;
         person.attributes = load_person_attributes(connection, person.id)?;
@@ -111,18 +110,14 @@ fn select_people(
 
 /// Returns the other names of a person, by name.
 pub(crate) fn load_person_aliases(connection: &Connection, person: i64) -> CorpusResult<Vec<String>> {
-    let mut statement =
-        connection.prepare_cached("SELECT name FROM person_alias WHERE signer_id = ?1 ORDER BY name")?;
-    let names = statement.query_map([person], |row| row.get(0))?;
-    Ok(names.collect::<rusqlite::Result<_>>()?)
+    let sql = "SELECT name FROM person_alias WHERE signer_id = ?1 ORDER BY name";
+    connection.read_values(sql, [person])
 }
 
 /// Returns what is said of a person, by name.
 pub(crate) fn load_person_attributes(connection: &Connection, person: i64) -> CorpusResult<Vec<PersonAttribute>> {
-    let mut statement = connection.prepare_cached(
-        "SELECT name, text, number, audience FROM person_attribute WHERE signer_id = ?1 ORDER BY name",
-    )?;
-    let attributes = statement.query_map([person], |row| {
+    let sql = "SELECT name, text, number, audience FROM person_attribute WHERE signer_id = ?1 ORDER BY name";
+    connection.read_rows(sql, [person], |row| {
         let audience = row.get::<_, String>(3)?;
         Ok(PersonAttribute {
             name: row.get(0)?,
@@ -131,8 +126,7 @@ pub(crate) fn load_person_attributes(connection: &Connection, person: i64) -> Co
             // A word that nobody knows must not open a door.
             audience: audience.parse().unwrap_or(ConsentAudience::Nobody),
         })
-    })?;
-    Ok(attributes.collect::<rusqlite::Result<_>>()?)
+    })
 }
 
 /// Says something of a person, or something else than before.
@@ -141,27 +135,23 @@ pub(crate) fn set_person_attribute(
     person: i64,
     attribute: &PersonAttribute,
 ) -> CorpusResult<()> {
-    connection
-        .prepare_cached(
-            "INSERT INTO person_attribute (signer_id, name, text, number, audience) VALUES (?1, ?2, ?3, ?4, ?5)
+    let sql = "INSERT INTO person_attribute (signer_id, name, text, number, audience) VALUES (?1, ?2, ?3, ?4, ?5)
              ON CONFLICT (signer_id, name) DO UPDATE SET text = ?3, number = ?4, audience = ?5
-             WHERE text <> ?3 OR audience <> ?5",
-        )?
-        .execute(params![
-            person,
-            attribute.name,
-            attribute.text,
-            attribute.number,
-            attribute.audience.audience_name()
-        ])?;
-    Ok(())
+             WHERE text <> ?3 OR audience <> ?5";
+    let values = params![
+        person,
+        attribute.name,
+        attribute.text,
+        attribute.number,
+        attribute.audience.audience_name()
+    ];
+    connection.change_rows(sql, values)
 }
 
 /// Removes what is said of a person under a name, and returns whether it was there.
 pub(crate) fn remove_person_attribute(connection: &Connection, person: i64, name: &str) -> CorpusResult<bool> {
-    let removed = connection
-        .prepare_cached("DELETE FROM person_attribute WHERE signer_id = ?1 AND name = ?2")?
-        .execute(params![person, name])?;
+    let sql = "DELETE FROM person_attribute WHERE signer_id = ?1 AND name = ?2";
+    let removed = connection.count_changes(sql, params![person, name])?;
     Ok(removed > 0)
 }
 
@@ -174,17 +164,14 @@ pub(crate) fn find_person_by_alias(connection: &Connection, name: &str) -> Corpu
 
 /// Gives a person another name, which no person has.
 pub(crate) fn insert_person_alias(connection: &Connection, person: i64, name: &str) -> CorpusResult<()> {
-    connection
-        .prepare_cached("INSERT INTO person_alias (signer_id, name) VALUES (?1, ?2)")?
-        .execute(params![person, name])?;
-    Ok(())
+    let sql = "INSERT INTO person_alias (signer_id, name) VALUES (?1, ?2)";
+    connection.change_rows(sql, params![person, name])
 }
 
 /// Takes another name from a person, and returns whether it was there.
 pub(crate) fn remove_person_alias(connection: &Connection, person: i64, name: &str) -> CorpusResult<bool> {
-    let removed = connection
-        .prepare_cached("DELETE FROM person_alias WHERE signer_id = ?1 AND name = ?2")?
-        .execute(params![person, name])?;
+    let sql = "DELETE FROM person_alias WHERE signer_id = ?1 AND name = ?2";
+    let removed = connection.count_changes(sql, params![person, name])?;
     Ok(removed > 0)
 }
 
@@ -198,12 +185,9 @@ pub(crate) fn move_person_rows(connection: &Connection, from: i64, into: i64) ->
          AND name IN (SELECT name FROM person_attribute WHERE signer_id = ?2)",
         "UPDATE person_attribute SET signer_id = ?2 WHERE signer_id = ?1",
     ] {
-        connection.prepare_cached(sql)?.execute([from, into])?;
+        connection.change_rows(sql, [from, into])?;
     }
-    connection
-        .prepare_cached("DELETE FROM signer WHERE id = ?1")?
-        .execute([from])?;
-    Ok(())
+    connection.change_rows("DELETE FROM signer WHERE id = ?1", [from])
 }
 
 /// Removes a person of whom the corpus has nothing else, with their other names and what is said of them.
@@ -213,7 +197,7 @@ pub(crate) fn delete_person(connection: &Connection, person: i64) -> CorpusResul
         "DELETE FROM person_attribute WHERE signer_id = ?1",
         "DELETE FROM signer WHERE id = ?1",
     ] {
-        connection.prepare_cached(sql)?.execute([person])?;
+        connection.change_rows(sql, [person])?;
     }
     Ok(())
 }
@@ -234,12 +218,11 @@ pub(crate) fn known_person_name(connection: &Connection, name: Option<&str>) -> 
 
 /// Returns the name of the signer of each of these tokens that has one.
 pub(crate) fn signers_of_tokens(connection: &Connection, tokens: &[i64]) -> CorpusResult<BTreeMap<i64, (i64, String)>> {
-    let mut statement = connection.prepare_cached(&format!(
+    let sql = format!(
         "SELECT t.id, g.id, g.name FROM {SIGNED_TOKENS_SQL} JOIN signer g ON g.id = coalesce(p.id, r.signer_id)
          WHERE t.id IN (SELECT value FROM json_each(?1))"
-    ))?;
-    let rows = statement.query_map([super::signs::json_list(tokens)], |row| {
+    );
+    connection.read_rows(&sql, [super::signs::json_list(tokens)], |row| {
         Ok((row.get(0)?, (row.get(1)?, row.get(2)?)))
-    })?;
-    Ok(rows.collect::<rusqlite::Result<_>>()?)
+    })
 }

@@ -7,12 +7,13 @@
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
-use rusqlite::{Connection, OptionalExtension as _, params};
+use rusqlite::{Connection, params};
 use serde_json::json;
 use sha2::{Digest as _, Sha256};
 
 use super::damaged_row_error;
 use super::stored_history::tracked::{TRACKED_TABLE_REFERENCES, load_table_columns, row_image};
+use crate::db::cached_sql::CachedSql;
 use crate::error::{CorpusError, CorpusResult};
 
 /// Tables with a row for each sign, annotation or block; [`SHARED_BITS`] says how many of their rows share a seal. Each
@@ -199,12 +200,11 @@ fn row_sums(connection: &Connection, table: &str, rows: &RangeInclusive<i64>) ->
     let range = [rows.start(), rows.end()];
     if table == CHANGESET_TABLE_NAME {
         let sql = "SELECT operation_id, part, data FROM changeset WHERE operation_id BETWEEN ?1 AND ?2";
-        let mut statement = connection.prepare_cached(sql)?;
-        let mut parts = statement.query(range)?;
-        while let Some(row) = parts.next()? {
+        connection.visit_rows(sql, range, |row| {
             let data = row.get_ref(2)?.as_blob().map_err(rusqlite::Error::from)?;
             *sums.entry(row.get(0)?).or_default() ^= part_checksum(row.get(1)?, data);
-        }
+            Ok(())
+        })?;
         return Ok(sums);
     }
     let columns = load_table_columns(connection, table)?;
@@ -215,20 +215,17 @@ fn row_sums(connection: &Connection, table: &str, rows: &RangeInclusive<i64>) ->
     };
     let image = row_image(&columns, "r");
     let sql = format!("SELECT {image} FROM main.{table} AS r WHERE {wanted}");
-    let mut statement = connection.prepare_cached(&sql)?;
-    let mut images = statement.query(range)?;
-    while let Some(row) = images.next()? {
+    connection.visit_rows(&sql, range, |row| {
         let image = row.get_ref(0)?.as_str().map_err(rusqlite::Error::from)?;
         *sums.entry(bucket_of(table, image)).or_default() ^= checksum(&[image.as_bytes()]);
-    }
+        Ok(())
+    })?;
     Ok(sums)
 }
 
 pub(super) fn stored_seal(connection: &Connection, table: &str, bucket: i64) -> CorpusResult<u64> {
-    let seal: Option<i64> = connection
-        .prepare_cached("SELECT seal FROM row_seal WHERE tbl = ?1 AND bucket = ?2")?
-        .query_row(params![table, bucket], |row| row.get(0))
-        .optional()?;
+    let sql = "SELECT seal FROM row_seal WHERE tbl = ?1 AND bucket = ?2";
+    let seal: Option<i64> = connection.find_value(sql, params![table, bucket])?;
     Ok(seal.unwrap_or_default().cast_unsigned())
 }
 
@@ -241,8 +238,7 @@ pub(super) fn store_seal(connection: &Connection, table: &str, bucket: i64, seal
          ON CONFLICT DO UPDATE SET seal = excluded.seal"
     };
     let seal = seal.cast_signed();
-    connection.prepare_cached(sql)?.execute(params![table, bucket, seal])?;
-    Ok(())
+    connection.change_rows(sql, params![table, bucket, seal])
 }
 
 /// What is written of recordings, by table; `?1` holds their numbers as JSON.

@@ -2,7 +2,6 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use chereme_sign::ErrorRemedy;
 use chereme_sign::text::{compose_accents, decompose_accents};
 use chereme_sign::tier::AnnotatedHands;
 use chereme_sign::{ComponentField, ComponentReading, SignComponent, SignPhase};
@@ -13,23 +12,8 @@ use super::stored_columns::{
     NamedColumn, RecordOrigin, ValueState, phase_name, phase_place, read_phase_columns, read_word_column, word_or_null,
 };
 use super::stored_tiers;
+use crate::db::cached_sql::CachedSql;
 use crate::error::{CorpusError, CorpusResult};
-
-/// A sign: a lexical entry.
-#[cfg(test)]
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub(crate) struct SignEntryRow {
-    /// The row.
-    pub id: i64,
-    /// The gloss, which no other sign of the corpus has.
-    pub gloss: String,
-    /// Remarks.
-    pub notes: Option<String>,
-    /// Translations as language and text.
-    pub texts: Vec<(String, String)>,
-    /// How many tokens it has.
-    pub tokens: i64,
-}
 
 /// A token: one realisation of a sign.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
@@ -170,29 +154,24 @@ pub(crate) fn enter_homonym(
     // A token without a recording, or without a linked one, belongs to a lexicon if that is the only one.
     let is_linked = "coalesce((SELECT r.lexicon_id FROM recording r WHERE r.id = t.recording_id),
         (SELECT CASE count(*) WHEN 1 THEN min(id) END FROM lexicon)) IS ?2";
-    let others: bool = connection
-        .prepare_cached(&format!(
-            "SELECT EXISTS (SELECT 1 FROM token t WHERE t.sign_id = ?1 AND NOT ({is_linked}))"
-        ))?
-        .query_row([loose, lexicon], |row| row.get(0))?;
+    let sql = format!("SELECT EXISTS (SELECT 1 FROM token t WHERE t.sign_id = ?1 AND NOT ({is_linked}))");
+    let others: bool = connection.read_value(&sql, [loose, lexicon])?;
     // The sign keeps its number and its uid if all of its tokens go with it.
     if !others {
-        connection
-            .prepare_cached(
-                "UPDATE sign SET lexicon_id = ?2, homonym = ?3, gloss = iif(?3 IS NULL, gloss, ?4) WHERE id = ?1",
-            )?
-            .execute(params![loose, lexicon, homonym, gloss])?;
+        connection.change_rows(
+            "UPDATE sign SET lexicon_id = ?2, homonym = ?3, gloss = iif(?3 IS NULL, gloss, ?4) WHERE id = ?1",
+            params![loose, lexicon, homonym, gloss],
+        )?;
         return Ok(EnteredSign {
             id: loose,
             is_new: false,
         });
     }
     let id = insert_sign(connection, Some(lexicon), gloss, homonym)?;
-    let moved = connection
-        .prepare_cached(&format!(
-            "UPDATE token AS t SET sign_id = ?3 WHERE t.sign_id = ?1 AND {is_linked}"
-        ))?
-        .execute([loose, lexicon, id])?;
+    let moved = connection.count_changes(
+        &format!("UPDATE token AS t SET sign_id = ?3 WHERE t.sign_id = ?1 AND {is_linked}"),
+        [loose, lexicon, id],
+    )?;
     // The citation form may have been among the tokens that moved.
     if moved > 0 {
         super::stored_delete::cite_another(connection, loose)?;
@@ -204,10 +183,8 @@ pub(crate) fn enter_homonym(
 fn insert_sign(connection: &Connection, lexicon: Option<i64>, gloss: &str, homonym: Option<i64>) -> CorpusResult<i64> {
     let place = || format!("sign {:?}", gloss.chars().take(40).collect::<String>());
     stored_tiers::check_text(place, gloss)?;
-    connection
-        .prepare_cached("INSERT INTO sign (lexicon_id, gloss, homonym) VALUES (?1, ?2, ?3)")?
-        .execute(params![lexicon, gloss, homonym])?;
-    Ok(connection.last_insert_rowid())
+    let sql = "INSERT INTO sign (lexicon_id, gloss, homonym) VALUES (?1, ?2, ?3)";
+    connection.insert_row(sql, params![lexicon, gloss, homonym])
 }
 
 /// Returns the entry of a lexicon, or without one the sign that belongs to none, with exactly this gloss, or with a gloss
@@ -254,7 +231,7 @@ pub(crate) fn split_entry_label(label: &str) -> Option<(&str, i64)> {
 /// Returns the gloss of a sign, with the number of a further entry behind it.
 pub(crate) fn sign_label(connection: &Connection, sign: i64) -> CorpusResult<String> {
     let sql = "SELECT label FROM sign WHERE id = ?1";
-    Ok(connection.prepare_cached(sql)?.query_row([sign], |row| row.get(0))?)
+    connection.read_value(sql, [sign])
 }
 
 /// A sign by the lexicon that it belongs to.
@@ -304,61 +281,26 @@ fn accent_spellings(gloss: &str) -> Vec<String> {
     spellings
 }
 
-/// Returns all signs by gloss.
-#[cfg(test)]
-pub(crate) fn load_sign_rows(connection: &Connection) -> CorpusResult<Vec<SignEntryRow>> {
-    let mut statement = connection.prepare_cached(
-        "SELECT id, gloss, notes, (SELECT count(*) FROM token t WHERE t.sign_id = s.id)
-         FROM sign s ORDER BY gloss",
-    )?;
-    let mut signs = statement
-        .query_map([], |row| {
-            Ok(SignEntryRow {
-                id: row.get(0)?,
-                gloss: row.get(1)?,
-                notes: row.get(2)?,
-                tokens: row.get(3)?,
-                texts: Vec::new(),
-            })
-        })?
-        .collect::<rusqlite::Result<Vec<_>>>()?;
-    for sign in &mut signs {
-        sign.texts = list_sign_translations(connection, sign.id)?;
-    }
-    Ok(signs)
-}
-
 /// Returns every gloss, in order.
 pub(crate) fn list_all_glosses(connection: &Connection) -> CorpusResult<Vec<String>> {
-    let mut statement = connection.prepare_cached("SELECT DISTINCT gloss FROM sign ORDER BY gloss")?;
-    let glosses = statement
-        .query_map([], |row| row.get(0))?
-        .collect::<rusqlite::Result<_>>()?;
-    Ok(glosses)
+    connection.read_values("SELECT DISTINCT gloss FROM sign ORDER BY gloss", [])
 }
 
 /// Returns the lexicon of each sign that belongs to one.
 pub(crate) fn lexicons_of_signs(connection: &Connection) -> CorpusResult<BTreeMap<i64, i64>> {
-    let mut statement = connection.prepare_cached("SELECT id, lexicon_id FROM sign WHERE lexicon_id IS NOT NULL")?;
-    let rows = statement.query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?;
-    Ok(rows.collect::<rusqlite::Result<_>>()?)
+    let sql = "SELECT id, lexicon_id FROM sign WHERE lexicon_id IS NOT NULL";
+    connection.read_rows(sql, [], |row| Ok((row.get(0)?, row.get(1)?)))
 }
 
 /// Returns the glosses of a lexicon, in order.
 pub(crate) fn glosses_of_lexicon(connection: &Connection, lexicon: i64) -> CorpusResult<Vec<String>> {
-    let mut statement = connection.prepare_cached("SELECT gloss FROM sign WHERE lexicon_id = ?1 ORDER BY gloss")?;
-    let glosses = statement
-        .query_map([lexicon], |row| row.get(0))?
-        .collect::<rusqlite::Result<_>>()?;
-    Ok(glosses)
+    connection.read_values("SELECT gloss FROM sign WHERE lexicon_id = ?1 ORDER BY gloss", [lexicon])
 }
 
 /// Returns the signs of a lexicon by gloss and number.
 pub(crate) fn entries_of_lexicon(connection: &Connection, lexicon: i64) -> CorpusResult<Vec<i64>> {
     let sql = "SELECT id FROM sign WHERE lexicon_id = ?1 ORDER BY gloss, homonym";
-    let mut statement = connection.prepare_cached(sql)?;
-    let signs = statement.query_map([lexicon], |row| row.get(0))?;
-    Ok(signs.collect::<rusqlite::Result<_>>()?)
+    connection.read_values(sql, [lexicon])
 }
 
 /// Returns the entries of a lexicon with a gloss, or without one the signs of none, each with its number.
@@ -382,108 +324,84 @@ pub(crate) fn entries_of_gloss(
 /// Returns the number of a sign among the entries of its gloss.
 pub(crate) fn entry_number(connection: &Connection, sign: i64) -> CorpusResult<i64> {
     let sql = "SELECT ifnull(homonym, 1) FROM sign WHERE id = ?1";
-    Ok(connection.prepare_cached(sql)?.query_row([sign], |row| row.get(0))?)
+    connection.read_value(sql, [sign])
 }
 
 /// Makes a sign an entry of a lexicon under a number that is free there.
 pub(crate) fn move_entry(connection: &Connection, sign: i64, lexicon: i64, number: i64) -> CorpusResult<()> {
-    connection
-        .prepare_cached("UPDATE sign SET lexicon_id = ?2, homonym = nullif(?3, 1) WHERE id = ?1")?
-        .execute([sign, lexicon, number])?;
-    Ok(())
+    let sql = "UPDATE sign SET lexicon_id = ?2, homonym = nullif(?3, 1) WHERE id = ?1";
+    connection.change_rows(sql, [sign, lexicon, number])
 }
 
 /// Gives the tokens of a sign to another one, whose citation form stays as it is.
 pub(crate) fn move_tokens(connection: &Connection, from: i64, into: i64) -> CorpusResult<()> {
     let is_citation = has_citation(connection, into)?;
-    connection
-        .prepare_cached("UPDATE token SET sign_id = ?2, citation = citation AND NOT ?3 WHERE sign_id = ?1")?
-        .execute(params![from, into, is_citation])?;
-    Ok(())
+    let sql = "UPDATE token SET sign_id = ?2, citation = citation AND NOT ?3 WHERE sign_id = ?1";
+    connection.change_rows(sql, params![from, into, is_citation])
 }
 
 /// Returns the translations of a sign as language and text.
 pub(crate) fn list_sign_translations(connection: &Connection, sign: i64) -> CorpusResult<Vec<(String, String)>> {
     let sql = "SELECT language, text FROM sign_text WHERE sign_id = ?1 ORDER BY id";
-    let mut statement = connection.prepare_cached(sql)?;
-    let texts = statement
-        .query_map([sign], |row| Ok((row.get(0)?, row.get(1)?)))?
-        .collect::<rusqlite::Result<_>>()?;
-    Ok(texts)
+    connection.read_rows(sql, [sign], |row| Ok((row.get(0)?, row.get(1)?)))
 }
 
 /// Adds a translation of a sign unless it exists.
 pub(crate) fn add_text(connection: &Connection, sign: i64, language: &str, text: &str) -> CorpusResult<()> {
-    connection
-        .prepare_cached("INSERT OR IGNORE INTO sign_text (sign_id, language, text) VALUES (?1, ?2, ?3)")?
-        .execute(params![sign, language, text])?;
-    Ok(())
+    let sql = "INSERT OR IGNORE INTO sign_text (sign_id, language, text) VALUES (?1, ?2, ?3)";
+    connection.change_rows(sql, params![sign, language, text])
 }
 
 /// Writes a token and returns its row; its `id`, `gloss` and `recording` are not used.
 pub(crate) fn insert_token(connection: &Connection, row: &TokenRow) -> CorpusResult<i64> {
-    connection
-        .prepare_cached(
-            "INSERT INTO token (sign_id, recording_id, annotation_id, start_us, end_us, hand, origin,
-                 citation, source) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9)",
-        )?
-        .execute(params![
-            row.sign_id,
-            row.recording_id,
-            row.annotation_id,
-            row.start_us,
-            row.end_us,
-            row.hand.map(NamedColumn),
-            NamedColumn(row.origin),
-            row.citation,
-            row.source
-        ])?;
-    Ok(connection.last_insert_rowid())
+    let sql = "INSERT INTO token (sign_id, recording_id, annotation_id, start_us, end_us, hand, origin,
+                 citation, source) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9)";
+    let values = params![
+        row.sign_id,
+        row.recording_id,
+        row.annotation_id,
+        row.start_us,
+        row.end_us,
+        row.hand.map(NamedColumn),
+        NamedColumn(row.origin),
+        row.citation,
+        row.source
+    ];
+    connection.insert_row(sql, values)
 }
 
 /// Writes a token's row again.
 pub(crate) fn update_token(connection: &Connection, row: &TokenRow) -> CorpusResult<()> {
-    connection
-        .prepare_cached(
-            "UPDATE token SET sign_id = ?2, start_us = ?3, end_us = ?4, hand = ?5, origin = ?6,
-                 citation = ?7, source = ?8 WHERE id = ?1",
-        )?
-        .execute(params![
-            row.id,
-            row.sign_id,
-            row.start_us,
-            row.end_us,
-            row.hand.map(NamedColumn),
-            NamedColumn(row.origin),
-            row.citation,
-            row.source
-        ])?;
-    Ok(())
+    let sql = "UPDATE token SET sign_id = ?2, start_us = ?3, end_us = ?4, hand = ?5, origin = ?6,
+                 citation = ?7, source = ?8 WHERE id = ?1";
+    let values = params![
+        row.id,
+        row.sign_id,
+        row.start_us,
+        row.end_us,
+        row.hand.map(NamedColumn),
+        NamedColumn(row.origin),
+        row.citation,
+        row.source
+    ];
+    connection.change_rows(sql, values)
 }
 
 /// Deletes a token with its values, its attributes and its notation.
 pub(crate) fn delete_token(connection: &Connection, id: i64) -> CorpusResult<()> {
     super::notations::delete_token_notation(connection, id)?;
     super::stored_attributes::set_token_attributes(connection, id, &[])?;
-    connection
-        .prepare_cached("DELETE FROM token_value WHERE token_id = ?1")?
-        .execute([id])?;
-    connection
-        .prepare_cached("DELETE FROM token WHERE id = ?1")?
-        .execute([id])?;
-    Ok(())
+    connection.change_rows("DELETE FROM token_value WHERE token_id = ?1", [id])?;
+    connection.change_rows("DELETE FROM token WHERE id = ?1", [id])
 }
 
 /// Deletes a sign that has no token and no translation any more, and returns whether it did.
 pub(crate) fn delete_empty_sign(connection: &Connection, sign: i64) -> CorpusResult<bool> {
     // Remarks are work of a person, and keep a sign that nothing else needs.
-    let deleted = connection
-        .prepare_cached(
-            "DELETE FROM sign WHERE id = ?1 AND notes IS NULL
+    let sql = "DELETE FROM sign WHERE id = ?1 AND notes IS NULL
                 AND NOT EXISTS (SELECT 1 FROM token WHERE sign_id = ?1)
-                AND NOT EXISTS (SELECT 1 FROM sign_text WHERE sign_id = ?1)",
-        )?
-        .execute([sign])?;
+                AND NOT EXISTS (SELECT 1 FROM sign_text WHERE sign_id = ?1)";
+    let deleted = connection.count_changes(sql, [sign])?;
     Ok(deleted > 0)
 }
 
@@ -493,9 +411,7 @@ pub(crate) fn set_values(connection: &Connection, token: i64, rows: &[TokenValue
     if load_values_and_opinions(connection, token)? == rows {
         return Ok(());
     }
-    connection
-        .prepare_cached("DELETE FROM token_value WHERE token_id = ?1")?
-        .execute([token])?;
+    connection.change_rows("DELETE FROM token_value WHERE token_id = ?1", [token])?;
     let mut statement = connection.prepare_cached(
         "INSERT INTO token_value (token_id, hand, component, feature, phase, position, state, value,
              inventory_id, annotation_id) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10)",
@@ -545,43 +461,33 @@ pub(crate) fn load_token_values(connection: &Connection, token: i64) -> CorpusRe
 /// Returns whether an annotation says something that does not count.
 pub(crate) fn is_opinion(connection: &Connection, annotation: i64) -> CorpusResult<bool> {
     let sql = format!("SELECT 1 FROM token_value WHERE annotation_id = ?1 AND {IS_OPINION_SQL}");
-    Ok(connection.prepare_cached(&sql)?.exists([annotation])?)
+    connection.has_rows(&sql, [annotation])
 }
 
 /// Returns the annotations that say something of a token which does not count.
 #[cfg(feature = "parquet")]
 pub(crate) fn opinion_annotations(connection: &Connection) -> CorpusResult<BTreeSet<i64>> {
-    let mut statement =
-        connection.prepare_cached(&format!("SELECT annotation_id FROM token_value WHERE {IS_OPINION_SQL}"))?;
-    let rows = statement.query_map([], |row| row.get(0))?;
-    Ok(rows.collect::<rusqlite::Result<_>>()?)
+    let sql = format!("SELECT annotation_id FROM token_value WHERE {IS_OPINION_SQL}");
+    connection.read_values(&sql, [])
 }
 
 /// Returns the tokens with an opinion about a component.
 pub(crate) fn tokens_with_opinion(connection: &Connection, component: &str) -> CorpusResult<BTreeSet<i64>> {
     let sql = format!("SELECT token_id FROM token_value WHERE component = ?1 AND value IS NULL AND {IS_OPINION_SQL}");
-    let mut statement = connection.prepare_cached(&sql)?;
-    let rows = statement.query_map([component], |row| row.get(0))?;
-    Ok(rows.collect::<rusqlite::Result<_>>()?)
+    connection.read_values(&sql, [component])
 }
 
 /// Returns the values of a token and the opinions about it, in the order in which they were written.
 pub(crate) fn load_values_and_opinions(connection: &Connection, token: i64) -> CorpusResult<Vec<TokenValueRow>> {
     let sql = format!("{SELECT_TOKEN_VALUES_SQL} FROM token_value WHERE token_id = ?1 ORDER BY id");
-    let mut statement = connection.prepare_cached(&sql)?;
-    let rows = statement
-        .query_map([token], value_row)?
-        .collect::<rusqlite::Result<_>>()?;
-    Ok(rows)
+    connection.read_rows(&sql, [token], value_row)
 }
 
 /// Returns the opinions about a token, in the order in which they were written.
 pub(crate) fn load_token_opinions(connection: &Connection, token: i64) -> CorpusResult<Vec<TokenValueRow>> {
     let sql =
         format!("{SELECT_TOKEN_VALUES_SQL} FROM token_value WHERE token_id = ?1 AND {IS_OPINION_SQL} ORDER BY id");
-    let mut statement = connection.prepare_cached(&sql)?;
-    let rows = statement.query_map([token], value_row)?;
-    Ok(rows.collect::<rusqlite::Result<_>>()?)
+    connection.read_rows(&sql, [token], value_row)
 }
 
 const SELECT_TOKEN_VALUES_SQL: &str = "SELECT hand, component, feature, phase, position, state, value, inventory_id,
@@ -628,13 +534,11 @@ fn token_row(row: &Row<'_>) -> rusqlite::Result<TokenRow> {
 /// Returns the token of that row.
 pub(crate) fn load_token_row(connection: &Connection, id: i64) -> CorpusResult<TokenRow> {
     connection
-        .prepare_cached(&format!("{SELECT_TOKEN_SQL} WHERE t.id = ?1"))?
-        .query_row([id], token_row)
-        .optional()?
+        .find_row(&format!("{SELECT_TOKEN_SQL} WHERE t.id = ?1"), [id], token_row)?
         .ok_or_else(|| {
             CorpusError::from_wrong_message(format!("there is no token:{id}"))
                 .with_error_place(format!("token:{id}"))
-                .with_advice(ErrorRemedy::command_remedy("`chereme list CORPUS tokens` lists them"))
+                .with_command_advice("`chereme list CORPUS tokens` lists them")
         })
 }
 
@@ -644,11 +548,7 @@ pub(crate) const MAX_ROWS_PER_QUERY: usize = 512;
 /// Returns the existing tokens among these rows, by row.
 pub(crate) fn load_token_rows(connection: &Connection, ids: &[i64]) -> CorpusResult<BTreeMap<i64, TokenRow>> {
     let sql = format!("{SELECT_TOKEN_SQL} WHERE t.id IN (SELECT value FROM json_each(?1))");
-    let mut statement = connection.prepare_cached(&sql)?;
-    let rows = statement
-        .query_map([json_list(ids)], |row| Ok((row.get(0)?, token_row(row)?)))?
-        .collect::<rusqlite::Result<_>>()?;
-    Ok(rows)
+    connection.read_rows(&sql, [json_list(ids)], |row| Ok((row.get(0)?, token_row(row)?)))
 }
 
 /// Returns row numbers as a JSON list, for a single query.
@@ -660,11 +560,7 @@ pub(super) fn json_list(ids: &[i64]) -> String {
 /// Returns the tokens of a recording by time.
 pub(crate) fn tokens_of_recording(connection: &Connection, recording: i64) -> CorpusResult<Vec<TokenRow>> {
     let sql = format!("{SELECT_TOKEN_SQL} WHERE t.recording_id = ?1 ORDER BY t.start_us, t.id");
-    let mut statement = connection.prepare_cached(&sql)?;
-    let rows = statement
-        .query_map([recording], token_row)?
-        .collect::<rusqlite::Result<_>>()?;
-    Ok(rows)
+    connection.read_rows(&sql, [recording], token_row)
 }
 
 /// Returns the tokens of a recording that overlap or touch a span, by time.
@@ -681,35 +577,24 @@ pub(crate) fn tokens_near(
                                      ORDER BY o.end_us - o.start_us DESC LIMIT 1)
          ORDER BY t.start_us, t.id"
     );
-    let mut statement = connection.prepare_cached(&sql)?;
-    let rows = statement
-        .query_map([recording, start_us, end_us], token_row)?
-        .collect::<rusqlite::Result<_>>()?;
-    Ok(rows)
+    connection.read_rows(&sql, [recording, start_us, end_us], token_row)
 }
 
 /// Returns the tokens of a sign, citation forms first.
 pub(crate) fn tokens_of_sign(connection: &Connection, sign: i64) -> CorpusResult<Vec<TokenRow>> {
     let sql = format!("{SELECT_TOKEN_SQL} WHERE t.sign_id = ?1 ORDER BY t.citation DESC, t.id");
-    let mut statement = connection.prepare_cached(&sql)?;
-    let rows = statement
-        .query_map([sign], token_row)?
-        .collect::<rusqlite::Result<_>>()?;
-    Ok(rows)
+    connection.read_rows(&sql, [sign], token_row)
 }
 
 /// Returns whether a sign has a citation form.
 pub(crate) fn has_citation(connection: &Connection, sign: i64) -> CorpusResult<bool> {
-    Ok(connection
-        .prepare_cached("SELECT 1 FROM token WHERE sign_id = ?1 AND citation = 1")?
-        .exists([sign])?)
+    connection.has_rows("SELECT 1 FROM token WHERE sign_id = ?1 AND citation = 1", [sign])
 }
 
 /// Returns whether a sign has a citation form that moves.
 pub(crate) fn is_cited(connection: &Connection, sign: i64) -> CorpusResult<bool> {
-    Ok(connection
-        .prepare_cached("SELECT 1 FROM token WHERE sign_id = ?1 AND citation = 1 AND recording_id IS NOT NULL")?
-        .exists([sign])?)
+    let sql = "SELECT 1 FROM token WHERE sign_id = ?1 AND citation = 1 AND recording_id IS NOT NULL";
+    connection.has_rows(sql, [sign])
 }
 
 /// A token of a recording that holds a value.
@@ -725,8 +610,7 @@ pub(crate) struct HoldingRow {
 /// out: they show nothing beyond their sources, and would be compared with themselves.
 pub(crate) fn tokens_holding(connection: &Connection, component: &str, value: &str) -> CorpusResult<Vec<HoldingRow>> {
     // Tokens of people come first, and 200 are more than a recipe ever tries.
-    let mut statement = connection.prepare_cached(
-        "SELECT t.id, v.hand, coalesce(g.handedness = 'left', 0),
+    let sql = "SELECT t.id, v.hand, coalesce(g.handedness = 'left', 0),
                 max(a.start_us, t.start_us), min(a.end_us, t.end_us)
          FROM token_value v JOIN token t ON t.id = v.token_id
          JOIN recording r ON r.id = t.recording_id
@@ -734,50 +618,39 @@ pub(crate) fn tokens_holding(connection: &Connection, component: &str, value: &s
          LEFT JOIN annotation a ON a.id = v.annotation_id
          WHERE v.component = ?1 AND v.feature IS NULL AND v.value = ?2 AND r.origin <> 'made'
          ORDER BY r.origin <> 'captured', t.id, v.id
-         LIMIT 200",
-    )?;
-    let rows = statement
-        .query_map(params![component, value], |row| {
-            let start: Option<i64> = row.get(3)?;
-            let end: Option<i64> = row.get(4)?;
-            Ok(HoldingRow {
-                token: row.get(0)?,
-                hand: word_or_null(row, 1)?,
-                left_handed: row.get(2)?,
-                // An annotation may only touch its token, and has no time in common with it.
-                span_us: start.zip(end).filter(|(start, end)| start < end),
-            })
-        })?
-        .collect::<rusqlite::Result<_>>()?;
-    Ok(rows)
+         LIMIT 200";
+    connection.read_rows(sql, params![component, value], |row| {
+        let start: Option<i64> = row.get(3)?;
+        let end: Option<i64> = row.get(4)?;
+        Ok(HoldingRow {
+            token: row.get(0)?,
+            hand: word_or_null(row, 1)?,
+            left_handed: row.get(2)?,
+            // An annotation may only touch its token, and has no time in common with it.
+            span_us: start.zip(end).filter(|(start, end)| start < end),
+        })
+    })
 }
 
 /// Returns how many tokens have a value of the inventory of that row.
 pub(crate) fn tokens_with(connection: &Connection, inventory: i64, value: &str) -> CorpusResult<u64> {
-    let count: i64 = connection
-        .prepare_cached(
-            "SELECT count(DISTINCT token_id) FROM token_value
-             WHERE inventory_id = ?1 AND value = ?2",
-        )?
-        .query_row(params![inventory, value], |row| row.get(0))?;
+    let sql = "SELECT count(DISTINCT token_id) FROM token_value
+             WHERE inventory_id = ?1 AND value = ?2";
+    let count: i64 = connection.read_value(sql, params![inventory, value])?;
     Ok(count.unsigned_abs())
 }
 
 /// Returns the entries of lexicons, of all signs.
 pub(crate) fn lexicon_entries(connection: &Connection) -> CorpusResult<Vec<TokenRow>> {
     let sql = format!("{SELECT_TOKEN_SQL} WHERE t.origin = ?1 ORDER BY t.id");
-    let mut statement = connection.prepare_cached(&sql)?;
-    let rows = statement
-        .query_map([NamedColumn(RecordOrigin::Lexicon)], token_row)?
-        .collect::<rusqlite::Result<_>>()?;
-    Ok(rows)
+    connection.read_rows(&sql, [NamedColumn(RecordOrigin::Lexicon)], token_row)
 }
 
 /// Returns one citation form of each sign. A sign that has one in a lexicon and one with movement is represented by the
 /// one that is coded for more components, else by the one with movement.
 pub(crate) fn load_citation_tokens(connection: &Connection) -> CorpusResult<Vec<TokenRow>> {
     // A form that is coded more fully stands for its sign; of equal ones the one that can be seen moving.
-    let mut statement = connection.prepare_cached(&format!(
+    let sql = format!(
         "{SELECT_TOKEN_SQL} WHERE t.citation = 1 AND t.id =
                 (SELECT c.id FROM token c WHERE c.sign_id = t.sign_id AND c.citation = 1
                  ORDER BY (SELECT count(DISTINCT v.component) FROM token_value v
@@ -785,7 +658,6 @@ pub(crate) fn load_citation_tokens(connection: &Connection) -> CorpusResult<Vec<
                           c.recording_id IS NULL, c.id
                  LIMIT 1)
          ORDER BY t.id"
-    ))?;
-    let rows = statement.query_map([], token_row)?.collect::<rusqlite::Result<_>>()?;
-    Ok(rows)
+    );
+    connection.read_rows(&sql, [], token_row)
 }

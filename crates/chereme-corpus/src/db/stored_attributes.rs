@@ -7,6 +7,7 @@ use rusqlite::{Connection, params};
 
 use super::people::{SIGNED_TOKENS_SQL, SIGNER_ATTRIBUTE_PREFIX};
 use super::signs::json_list;
+use crate::db::cached_sql::CachedSql;
 use crate::error::CorpusResult;
 
 /// An attribute of an entry of a lexicon.
@@ -36,9 +37,7 @@ pub(crate) fn set_token_attributes(connection: &Connection, token: i64, rows: &[
     if of_tokens(connection, &[token])?.remove(&token).unwrap_or_default() == rows {
         return Ok(());
     }
-    connection
-        .prepare_cached("DELETE FROM attribute WHERE token_id = ?1")?
-        .execute([token])?;
+    connection.change_rows("DELETE FROM attribute WHERE token_id = ?1", [token])?;
     let mut statement = connection
         .prepare_cached("INSERT OR IGNORE INTO attribute (token_id, name, text, number) VALUES (?1, ?2, ?3, ?4)")?;
     for row in rows {
@@ -67,12 +66,8 @@ pub(crate) fn of_tokens(connection: &Connection, tokens: &[i64]) -> CorpusResult
 
 /// Returns the names of all attributes, in order; those of signers begin with [`SIGNER_ATTRIBUTE_PREFIX`].
 pub(crate) fn list_attribute_names(connection: &Connection) -> CorpusResult<Vec<String>> {
-    let mut statement = connection
-        .prepare_cached("SELECT name FROM attribute UNION SELECT 'signer.' || name FROM person_attribute ORDER BY 1")?;
-    let names = statement
-        .query_map([], |row| row.get(0))?
-        .collect::<rusqlite::Result<_>>()?;
-    Ok(names)
+    let sql = "SELECT name FROM attribute UNION SELECT 'signer.' || name FROM person_attribute ORDER BY 1";
+    connection.read_values(sql, [])
 }
 
 /// Returns for each token the attributes of these names that count for it.
@@ -103,15 +98,13 @@ pub(crate) fn attributes_by_token(
     }
     let signs: Vec<i64> = by_sign.keys().copied().collect();
     // A row of a table is known by its cells; it must not take attributes of the sign's other rows.
-    let mut statement = connection.prepare_cached(
-        "SELECT id, sign_id FROM token WHERE sign_id IN (SELECT value FROM json_each(?1))
-             AND NOT (origin = 'lexicon' AND coalesce(instr(source, '\"cells\":'), 0))",
-    )?;
-    let mut rows = statement.query([json_list(&signs)])?;
-    while let Some(row) = rows.next()? {
+    let sql = "SELECT id, sign_id FROM token WHERE sign_id IN (SELECT value FROM json_each(?1))
+             AND NOT (origin = 'lexicon' AND coalesce(instr(source, '\"cells\":'), 0))";
+    connection.visit_rows(sql, [json_list(&signs)], |row| {
         let sign: i64 = row.get(1)?;
         by_token.entry(row.get(0)?).or_insert_with(|| by_sign[&sign].clone());
-    }
+        Ok(())
+    })?;
     let signer_attributes = names
         .iter()
         .filter_map(|name| name.strip_prefix(SIGNER_ATTRIBUTE_PREFIX));
@@ -168,12 +161,12 @@ pub(crate) struct SignUse {
 
 /// Returns the captured tokens of all signs, by sign, recording, signer and time.
 pub(crate) fn load_sign_uses(connection: &Connection) -> CorpusResult<Vec<SignUse>> {
-    let mut statement = connection.prepare_cached(&format!(
+    let sql = format!(
         "SELECT t.sign_id, t.recording_id, coalesce(p.id, r.signer_id) AS used_by, t.start_us, t.end_us
          FROM {SIGNED_TOKENS_SQL}
          WHERE t.origin = 'captured' ORDER BY t.sign_id, t.recording_id, used_by, t.start_us"
-    ))?;
-    let rows = statement.query_map([], |row| {
+    );
+    connection.read_rows(&sql, [], |row| {
         Ok(SignUse {
             sign: row.get(0)?,
             recording: row.get(1)?,
@@ -181,16 +174,13 @@ pub(crate) fn load_sign_uses(connection: &Connection) -> CorpusResult<Vec<SignUs
             start_us: row.get(3)?,
             end_us: row.get(4)?,
         })
-    })?;
-    Ok(rows.collect::<rusqlite::Result<_>>()?)
+    })
 }
 
 /// Returns the sign of each of these tokens.
 pub(crate) fn signs_of_tokens(connection: &Connection, tokens: &[i64]) -> CorpusResult<BTreeMap<i64, i64>> {
-    let mut statement =
-        connection.prepare_cached("SELECT id, sign_id FROM token WHERE id IN (SELECT value FROM json_each(?1))")?;
-    let rows = statement.query_map([json_list(tokens)], |row| Ok((row.get(0)?, row.get(1)?)))?;
-    Ok(rows.collect::<rusqlite::Result<_>>()?)
+    let sql = "SELECT id, sign_id FROM token WHERE id IN (SELECT value FROM json_each(?1))";
+    connection.read_rows(sql, [json_list(tokens)], |row| Ok((row.get(0)?, row.get(1)?)))
 }
 
 /// Summary of an attribute for an overview.
@@ -205,11 +195,9 @@ pub(crate) struct AttributeSummary {
 
 /// Returns every attribute with the number of entries that have it.
 pub(crate) fn summarise_attributes(connection: &Connection) -> CorpusResult<Vec<AttributeSummary>> {
-    let mut statement = connection.prepare_cached(
-        "SELECT name, count(*), count(number), min(number), max(number) FROM attribute
-         GROUP BY name ORDER BY min(id)",
-    )?;
-    let rows = statement.query_map([], |row| {
+    let sql = "SELECT name, count(*), count(number), min(number), max(number) FROM attribute
+         GROUP BY name ORDER BY min(id)";
+    connection.read_rows(sql, [], |row| {
         let (entries, numbers): (i64, i64) = (row.get(1)?, row.get(2)?);
         let least: Option<f64> = row.get(3)?;
         Ok(AttributeSummary {
@@ -217,6 +205,5 @@ pub(crate) fn summarise_attributes(connection: &Connection) -> CorpusResult<Vec<
             entries: entries.unsigned_abs(),
             range: least.zip(row.get(4)?).filter(|_| numbers == entries),
         })
-    })?;
-    Ok(rows.collect::<rusqlite::Result<_>>()?)
+    })
 }

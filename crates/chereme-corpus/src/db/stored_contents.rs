@@ -1,11 +1,12 @@
 //! Rows for display in a window: many at once, with few columns each.
 
 use chereme_motion::{FrameRate, RecordingInstant, TimeSpan};
-use rusqlite::{Connection, OptionalExtension};
+use rusqlite::Connection;
 
 use super::stored_columns::{ValueState, read_word_column};
 use super::stored_recordings::RecordingRow;
 use super::stored_tracks::TrackKind;
+use crate::db::cached_sql::CachedSql;
 use crate::db::stored_rows::{AnnotationColumns, CurvesAlone, RecordingGlance, SignGlance, TokenNeighbours};
 use crate::db::upgrade::NONMANUALS_TRACK_NAME;
 use crate::error::CorpusResult;
@@ -13,7 +14,7 @@ use crate::error::CorpusResult;
 /// Returns the number of the newest operation; 0 if there is no operation.
 pub(crate) fn newest_operation_number(connection: &Connection) -> CorpusResult<i64> {
     let sql = "SELECT coalesce(max(id), 0) FROM operation";
-    Ok(connection.prepare_cached(sql)?.query_row([], |row| row.get(0))?)
+    connection.read_value(sql, [])
 }
 
 /// Returns whether the database is open for reading only, for example because the file is write-protected.
@@ -66,28 +67,23 @@ pub(crate) fn load_recording_glances(connection: &Connection) -> CorpusResult<Ve
 
 /// Returns the tracks of curves of recordings without a skeleton, by recording.
 pub(crate) fn curves_alone(connection: &Connection) -> CorpusResult<Vec<CurvesAlone>> {
-    let mut statement = connection.prepare_cached(
-        "SELECT t.recording_id, (SELECT group_concat(name, char(10)) FROM channel c WHERE c.track_id = t.id),
+    let sql = "SELECT t.recording_id, (SELECT group_concat(name, char(10)) FROM channel c WHERE c.track_id = t.id),
                 coalesce(t.frames, 0), t.rate_frames, t.rate_seconds, t.offset_us, r.duration_us
          FROM track t JOIN recording r ON r.id = t.recording_id
          WHERE t.kind = 'curves' AND t.name <> ?1 AND NOT EXISTS
                (SELECT 1 FROM track k WHERE k.recording_id = t.recording_id AND k.kind = 'skeleton')
-         ORDER BY t.recording_id, t.id",
-    )?;
-    let rows = statement
-        .query_map([NONMANUALS_TRACK_NAME], |row| {
-            let rate: Option<(u32, u32)> = row.get::<_, Option<u32>>(3)?.zip(row.get(4)?);
-            Ok(CurvesAlone {
-                recording: row.get(0)?,
-                names: row.get::<_, Option<String>>(1)?.unwrap_or_default(),
-                frames: unsigned_row_count(row.get(2)?),
-                rate: rate.and_then(|(frames, seconds)| FrameRate::new(frames, seconds).ok()),
-                offset_us: row.get(5)?,
-                duration_us: row.get(6)?,
-            })
-        })?
-        .collect::<rusqlite::Result<_>>()?;
-    Ok(rows)
+         ORDER BY t.recording_id, t.id";
+    connection.read_rows(sql, [NONMANUALS_TRACK_NAME], |row| {
+        let rate: Option<(u32, u32)> = row.get::<_, Option<u32>>(3)?.zip(row.get(4)?);
+        Ok(CurvesAlone {
+            recording: row.get(0)?,
+            names: row.get::<_, Option<String>>(1)?.unwrap_or_default(),
+            frames: unsigned_row_count(row.get(2)?),
+            rate: rate.and_then(|(frames, seconds)| FrameRate::new(frames, seconds).ok()),
+            offset_us: row.get(5)?,
+            duration_us: row.get(6)?,
+        })
+    })
 }
 
 /// Returns the kinds of tracks that a list names, in their usual order.
@@ -100,31 +96,26 @@ fn parse_track_kinds(list: Option<String>) -> Vec<TrackKind> {
 
 /// Returns all signs by gloss.
 pub(crate) fn load_sign_glances(connection: &Connection) -> CorpusResult<Vec<SignGlance>> {
-    let mut statement = connection.prepare_cached(
-        "SELECT s.id, s.label, s.notes, (SELECT count(*) FROM token t WHERE t.sign_id = s.id),
+    let sql = "SELECT s.id, s.label, s.notes, (SELECT count(*) FROM token t WHERE t.sign_id = s.id),
                 c.id, c.recording_id, c.start_us, c.end_us,
                 EXISTS (SELECT 1 FROM notation n WHERE n.token_id = c.id),
                 (SELECT name FROM lexicon l WHERE l.id = s.lexicon_id)
          FROM sign s LEFT JOIN token c ON c.id =
                 (SELECT t.id FROM token t WHERE t.sign_id = s.id AND t.citation = 1
                  ORDER BY t.recording_id IS NULL, t.id LIMIT 1)
-         ORDER BY s.gloss, s.homonym, s.id",
-    )?;
-    let signs = statement
-        .query_map([], |row| {
-            Ok(SignGlance {
-                id: row.get(0)?,
-                gloss: row.get(1)?,
-                notes: row.get(2)?,
-                tokens: unsigned_row_count(row.get(3)?),
-                citation: row.get(4)?,
-                place: place_from_columns(row.get(5)?, row.get(6)?, row.get(7)?),
-                notated: row.get(8)?,
-                lexicon: row.get(9)?,
-            })
-        })?
-        .collect::<rusqlite::Result<_>>()?;
-    Ok(signs)
+         ORDER BY s.gloss, s.homonym, s.id";
+    connection.read_rows(sql, [], |row| {
+        Ok(SignGlance {
+            id: row.get(0)?,
+            gloss: row.get(1)?,
+            notes: row.get(2)?,
+            tokens: unsigned_row_count(row.get(3)?),
+            citation: row.get(4)?,
+            place: place_from_columns(row.get(5)?, row.get(6)?, row.get(7)?),
+            notated: row.get(8)?,
+            lexicon: row.get(9)?,
+        })
+    })
 }
 
 fn place_from_columns(recording: Option<i64>, start: Option<i64>, end: Option<i64>) -> Option<(i64, TimeSpan)> {
@@ -162,13 +153,12 @@ pub(crate) fn load_annotations_around(
         token,
         ..TokenNeighbours::default()
     };
-    let place = connection
-        .prepare_cached(
-            "SELECT a.id, a.tier_id, a.start_us FROM token t
+    let place = connection.find_row(
+        "SELECT a.id, a.tier_id, a.start_us FROM token t
              JOIN annotation a ON a.id = t.annotation_id WHERE t.id = ?1",
-        )?
-        .query_row([token], |row| Ok((row.get(0)?, row.get(1)?, row.get(2)?)))
-        .optional()?;
+        [token],
+        |row| Ok((row.get(0)?, row.get(1)?, row.get(2)?)),
+    )?;
     let Some((annotation, tier, start)) = place else {
         return Ok(around);
     };

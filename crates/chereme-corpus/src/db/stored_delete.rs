@@ -3,6 +3,7 @@
 use rusqlite::Connection;
 use serde::Serialize;
 
+use crate::db::cached_sql::CachedSql;
 use crate::error::CorpusResult;
 
 /// The number of rows that belong to a recording.
@@ -20,23 +21,20 @@ pub struct RecordingBelongings {
 
 /// Counts the rows that belong to a recording.
 pub(crate) fn count_recording_belongings(connection: &Connection, recording: i64) -> CorpusResult<RecordingBelongings> {
-    let row = connection
-        .prepare_cached(
-            "SELECT (SELECT count(*) FROM track WHERE recording_id = ?1),
+    let sql = "SELECT (SELECT count(*) FROM track WHERE recording_id = ?1),
                  (SELECT count(*) FROM tier WHERE recording_id = ?1),
                  (SELECT count(*) FROM annotation a JOIN tier t ON t.id = a.tier_id
                   WHERE t.recording_id = ?1),
-                 (SELECT count(*) FROM token WHERE recording_id = ?1)",
-        )?
-        .query_row([recording], |row| {
-            let count = |at: usize| row.get::<_, u32>(at).map(u64::from);
-            Ok(RecordingBelongings {
-                tracks: count(0)?,
-                tiers: count(1)?,
-                annotations: count(2)?,
-                tokens: count(3)?,
-            })
-        })?;
+                 (SELECT count(*) FROM token WHERE recording_id = ?1)";
+    let row = connection.read_row(sql, [recording], |row| {
+        let count = |at: usize| row.get::<_, u32>(at).map(u64::from);
+        Ok(RecordingBelongings {
+            tracks: count(0)?,
+            tiers: count(1)?,
+            annotations: count(2)?,
+            tokens: count(3)?,
+        })
+    })?;
     Ok(row)
 }
 
@@ -50,13 +48,11 @@ pub(crate) fn delete_recording(connection: &Connection, recording: i64) -> Corpu
     const RECORDING_TIERS_SQL: &str = "(SELECT id FROM tier WHERE recording_id = ?1)";
     const RECORDING_RECIPES_SQL: &str = "(SELECT id FROM recipe WHERE recording_id = ?1)";
     // They are noted before their tracks go, which alone name them.
-    let skeletons: Vec<i64> = connection
-        .prepare_cached(
-            "SELECT DISTINCT skeleton_id FROM track
+    let skeletons: Vec<i64> = connection.read_values(
+        "SELECT DISTINCT skeleton_id FROM track
              WHERE recording_id = ?1 AND skeleton_id IS NOT NULL ORDER BY skeleton_id",
-        )?
-        .query_map([recording], |row| row.get(0))?
-        .collect::<rusqlite::Result<_>>()?;
+        [recording],
+    )?;
     // Tokens go first: each deleted annotation would otherwise look for the tokens that it says something about.
     for sql in [
         format!("DELETE FROM recipe_input WHERE recipe_id IN {RECORDING_RECIPES_SQL}"),
@@ -77,15 +73,14 @@ pub(crate) fn delete_recording(connection: &Connection, recording: i64) -> Corpu
         "DELETE FROM source_file WHERE recording_id = ?1".to_owned(),
         "DELETE FROM recording WHERE id = ?1".to_owned(),
     ] {
-        connection.prepare_cached(&sql)?.execute([recording])?;
+        connection.change_rows(&sql, [recording])?;
     }
     for skeleton in skeletons {
-        connection
-            .prepare_cached(
-                "DELETE FROM skeleton WHERE id = ?1
+        connection.change_rows(
+            "DELETE FROM skeleton WHERE id = ?1
                  AND NOT EXISTS (SELECT 1 FROM track WHERE skeleton_id = ?1)",
-            )?
-            .execute([skeleton])?;
+            [skeleton],
+        )?;
     }
     Ok(())
 }
@@ -96,20 +91,16 @@ pub(crate) fn delete_sign(connection: &Connection, sign: i64) -> CorpusResult<()
         "DELETE FROM sign_text WHERE sign_id = ?1",
         "DELETE FROM sign WHERE id = ?1",
     ] {
-        connection.prepare_cached(sql)?.execute([sign])?;
+        connection.change_rows(sql, [sign])?;
     }
     Ok(())
 }
 
 /// Makes the oldest moving token of a sign its citation form if no moving token is.
 pub(crate) fn cite_another(connection: &Connection, sign: i64) -> CorpusResult<()> {
-    connection
-        .prepare_cached(
-            "UPDATE token SET citation = 1
+    let sql = "UPDATE token SET citation = 1
              WHERE id = (SELECT min(id) FROM token WHERE sign_id = ?1 AND recording_id IS NOT NULL)
                AND NOT EXISTS (SELECT 1 FROM token
-                               WHERE sign_id = ?1 AND recording_id IS NOT NULL AND citation = 1)",
-        )?
-        .execute([sign])?;
-    Ok(())
+                               WHERE sign_id = ?1 AND recording_id IS NOT NULL AND citation = 1)";
+    connection.change_rows(sql, [sign])
 }

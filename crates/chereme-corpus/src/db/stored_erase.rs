@@ -13,6 +13,7 @@ use super::people;
 use super::stale_log::companion_path;
 use super::stored_motion::to_hex_text;
 use super::{CorpusStore, DerivedData};
+use crate::db::cached_sql::CachedSql;
 use crate::error::{CorpusError, CorpusResult};
 use crate::progress::ProgressReceiver;
 
@@ -77,9 +78,7 @@ impl ErasedTraces {
     }
 
     fn add_traces(&mut self, sql: &str, id: i64, connection: &Connection) -> CorpusResult<()> {
-        let mut statement = connection.prepare_cached(sql)?;
-        let mut rows = statement.query([id])?;
-        while let Some(row) = rows.next()? {
+        connection.visit_rows(sql, [id], |row| {
             match row.get_ref(0)? {
                 ValueRef::Text(text) => {
                     let text = String::from_utf8_lossy(text).trim().to_owned();
@@ -91,8 +90,8 @@ impl ErasedTraces {
                 ValueRef::Blob(bytes) => drop(self.bytes.insert(bytes.to_owned())),
                 _ => {}
             }
-        }
-        Ok(())
+            Ok(())
+        })
     }
 
     /// Searches the rows and the bytes of the file and of its log.

@@ -9,15 +9,15 @@ pub(super) mod tracked;
 
 use std::collections::BTreeMap;
 
-use chereme_sign::ErrorRemedy;
 use rusqlite::{Connection, OptionalExtension, Row, params};
 use serde::Serialize;
 use serde_json::Value;
 
 use super::damaged_row_error;
 use super::seals::{self, SealChanges};
+use crate::db::cached_sql::CachedSql;
 use crate::error::{CorpusError, CorpusResult};
-use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
+use crate::progress::{ProgressReceiver, ProgressUnit};
 use crate::words::effect::OperationEffect;
 use tracked::{TRACKED_TABLE_REFERENCES, column_from_image_sql, load_table_columns, row_image};
 
@@ -102,10 +102,8 @@ pub(super) fn finish_operation(
     let mut changes = 0i64;
     let (mut part, mut lines) = (0i64, Vec::new());
     let mut seals = SealChanges::default();
-    let mut statement =
-        connection.prepare_cached("SELECT tbl, kind, before, after, refs FROM temp.change ORDER BY seq")?;
-    let mut rows = statement.query([])?;
-    while let Some(row) = rows.next()? {
+    let sql = "SELECT tbl, kind, before, after, refs FROM temp.change ORDER BY seq";
+    connection.visit_rows(sql, [], |row| {
         let text = |i: usize| -> rusqlite::Result<Option<&str>> { Ok(row.get_ref(i)?.as_str_or_null()?) };
         let table = text(0)?.unwrap_or_default();
         let images = [text(2)?, text(3)?];
@@ -129,7 +127,8 @@ pub(super) fn finish_operation(
             part += 1;
             lines.clear();
         }
-    }
+        Ok(())
+    })?;
     if !lines.is_empty() {
         seals.turn_part(
             operation,
@@ -156,12 +155,7 @@ fn report_change_progress(progress: &mut ProgressReceiver<'_>, task: &str, done:
     if done % 512 != 0 {
         return Ok(());
     }
-    progress.report_step(ProgressStep {
-        task,
-        done: u64::try_from(done).unwrap_or_default(),
-        total: None,
-        unit: ProgressUnit::Items,
-    })
+    progress.report_amount(ProgressUnit::Items, task, u64::try_from(done).unwrap_or_default(), None)
 }
 
 /// Stores lines as a part of a changeset, and returns its bytes.
@@ -182,7 +176,7 @@ pub(super) fn undo_newest_operation(
 ) -> CorpusResult<OperationRow> {
     let target = load_undo_and_redo_stacks(connection)?.0.pop().ok_or_else(|| {
         CorpusError::from_wrong_message("there is nothing to undo")
-            .with_advice(ErrorRemedy::command_remedy("`chereme log CORPUS` lists all operations"))
+            .with_command_advice("`chereme log CORPUS` lists all operations")
     })?;
     apply_inverse_changeset(connection, author, OperationKind::Undo, target, target, progress)
 }
@@ -371,10 +365,7 @@ pub(crate) fn name_of(connection: &Connection, table: &str, id: i64) -> CorpusRe
         "annotation" => "SELECT value FROM annotation WHERE id = ?1",
         _ => return Ok(None),
     };
-    Ok(connection
-        .prepare_cached(sql)?
-        .query_row([id], |row| row.get(0))
-        .optional()?)
+    connection.find_value(sql, [id])
 }
 
 /// Returns the row that `column` of a row refers to; `None` if that row was removed.
@@ -382,10 +373,7 @@ pub(crate) fn reference_of(connection: &Connection, table: &str, id: i64, column
     if (table, column) != ("tier", "recording_id") {
         return Ok(None);
     }
-    Ok(connection
-        .prepare_cached("SELECT recording_id FROM tier WHERE id = ?1")?
-        .query_row([id], |row| row.get(0))
-        .optional()?)
+    connection.find_value("SELECT recording_id FROM tier WHERE id = ?1", [id])
 }
 
 /// The statements that undo changes of a table's rows; `?1` and `?2` are rows as JSON.
@@ -452,19 +440,15 @@ fn invert_change(
             let after_text = after.to_string();
             // A row that something else changed since must not be deleted with that change.
             expect_row(connection, &table, inverse, &after, &after_text)?;
-            connection.prepare_cached(&inverse.delete)?.execute([after_text])?;
+            connection.change_rows(&inverse.delete, [after_text])?;
         }
         "d" => {
-            connection
-                .prepare_cached(&inverse.insert)?
-                .execute([before.to_string()])?;
+            connection.change_rows(&inverse.insert, [before.to_string()])?;
         }
         "u" => {
             let after_text = after.to_string();
             expect_row(connection, &table, inverse, &after, &after_text)?;
-            connection
-                .prepare_cached(&inverse.update)?
-                .execute([before.to_string(), after_text])?;
+            connection.change_rows(&inverse.update, [before.to_string(), after_text])?;
         }
         other => {
             return Err(damaged_row_error(
@@ -484,10 +468,7 @@ fn expect_row(
     want: &Value,
     text: &str,
 ) -> CorpusResult<()> {
-    let stored_text: Option<String> = connection
-        .prepare_cached(&inverse.find)?
-        .query_row([text], |row| row.get(0))
-        .optional()?;
+    let stored_text: Option<String> = connection.find_value(&inverse.find, [text])?;
     let row_image = stored_text.and_then(|text| serde_json::from_str::<Value>(&text).ok());
     // The row image of an earlier version has fewer columns.
     let same = row_image.zip(want.as_object()).is_some_and(|(found, want)| {
@@ -511,9 +492,7 @@ fn expect_row(
     Err(CorpusError::from_wrong_message(format!(
         "the {row} was changed by something else since, so this cannot be taken back"
     ))
-    .with_advice(ErrorRemedy::command_remedy(
-        "`chereme log CORPUS` lists all operations; `chereme check CORPUS` looks for damage",
-    )))
+    .with_command_advice("`chereme log CORPUS` lists all operations; `chereme check CORPUS` looks for damage"))
 }
 
 /// Returns the number of the newest operation; nothing if there are no operations.
@@ -539,34 +518,29 @@ pub(crate) fn operations_since(connection: &Connection, operation: i64) -> Corpu
 /// Returns the newest operations first.
 pub(crate) fn load_newest_operations(connection: &Connection, limit: usize) -> CorpusResult<Vec<OperationRow>> {
     let (done, _) = load_undo_and_redo_stacks(connection)?;
-    let mut statement = connection.prepare_cached(
-        "SELECT id, at, author, kind, target, name, summary, effect, changes
-         FROM operation ORDER BY id DESC LIMIT ?1",
-    )?;
-    let rows = statement
-        .query_map([i64::try_from(limit).unwrap_or(i64::MAX)], |row| {
-            let id = row.get(0)?;
-            let kind = match row.get::<_, String>(3)?.as_str() {
-                "undo" => OperationKind::Undo,
-                "redo" => OperationKind::Redo,
-                _ => OperationKind::Do,
-            };
-            Ok(OperationRow {
-                id,
-                at: row.get(1)?,
-                author: row.get(2)?,
-                kind,
-                target: row.get(4)?,
-                name: row.get(5)?,
-                summary: row.get(6)?,
-                effect: read_effect(row, 5)?,
-                changes: row.get(8)?,
-                // A redone operation stands out of order, where the binary search may miss it.
-                stands: kind != OperationKind::Do || done.binary_search(&id).is_ok() || done.contains(&id),
-            })
-        })?
-        .collect::<rusqlite::Result<Vec<_>>>()?;
-    Ok(rows)
+    let sql = "SELECT id, at, author, kind, target, name, summary, effect, changes
+         FROM operation ORDER BY id DESC LIMIT ?1";
+    connection.read_rows(sql, [i64::try_from(limit).unwrap_or(i64::MAX)], |row| {
+        let id = row.get(0)?;
+        let kind = match row.get::<_, String>(3)?.as_str() {
+            "undo" => OperationKind::Undo,
+            "redo" => OperationKind::Redo,
+            _ => OperationKind::Do,
+        };
+        Ok(OperationRow {
+            id,
+            at: row.get(1)?,
+            author: row.get(2)?,
+            kind,
+            target: row.get(4)?,
+            name: row.get(5)?,
+            summary: row.get(6)?,
+            effect: read_effect(row, 5)?,
+            changes: row.get(8)?,
+            // A redone operation stands out of order, where the binary search may miss it.
+            stands: kind != OperationKind::Do || done.binary_search(&id).is_ok() || done.contains(&id),
+        })
+    })
 }
 
 /// Reads what an operation did from its name, its summary and its effect, the columns from `first` on.
@@ -591,12 +565,12 @@ pub(super) fn check_changesets(
         let (id, changes, parts): (i64, i64, i64) = (row.get(0)?, row.get(1)?, row.get(2)?);
         let mut fault_count = 0i64;
         for part in 0..parts {
-            progress.report_step(ProgressStep {
-                task: "history",
-                done: u64::try_from(id).unwrap_or_default(),
-                total: None,
-                unit: ProgressUnit::Items,
-            })?;
+            progress.report_amount(
+                ProgressUnit::Items,
+                "history",
+                u64::try_from(id).unwrap_or_default(),
+                None,
+            )?;
             match read_part(connection, id, part) {
                 Ok(lines) => fault_count += lines.lines().count() as i64,
                 Err(error) => faults.push(error.to_string()),

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use rusqlite::Connection;
 use serde::Serialize;
 
+use crate::db::cached_sql::CachedSql;
 use crate::db::people::SIGNER_ROWS_SQL;
 use crate::db::stored_rows::{InventoryInfo, SignerInfo};
 use crate::error::CorpusResult;
@@ -59,7 +60,7 @@ pub(crate) fn count_rows_by_kind(connection: &Connection) -> CorpusResult<BTreeM
 }
 
 fn query_row_count(connection: &Connection, sql: &str) -> CorpusResult<u64> {
-    let number: i64 = connection.prepare_cached(sql)?.query_row([], |row| row.get(0))?;
+    let number: i64 = connection.read_value(sql, [])?;
     Ok(u64::try_from(number).unwrap_or_default())
 }
 
@@ -87,27 +88,22 @@ pub(crate) fn count_tiers_by_role(connection: &Connection) -> CorpusResult<BTree
 }
 
 fn grouped(connection: &Connection, sql: &str) -> CorpusResult<BTreeMap<String, u64>> {
-    let mut statement = connection.prepare_cached(sql)?;
-    let rows = statement.query_map([], |row| Ok((row.get(0)?, row.get::<_, i64>(1)?.unsigned_abs())))?;
-    Ok(rows.collect::<rusqlite::Result<_>>()?)
+    connection.read_rows(sql, [], |row| Ok((row.get(0)?, row.get::<_, i64>(1)?.unsigned_abs())))
 }
 
 /// Returns the amounts of movement, markers and curves in the corpus, by kind of track.
 pub(crate) fn sum_track_amounts(connection: &Connection) -> CorpusResult<BTreeMap<String, TrackAmount>> {
     // Frames with times of their own have no rate: their track lasts from the first to the last.
-    let mut statement = connection.prepare_cached(
-        "SELECT kind, sum(coalesce(frames * 1.0 * rate_seconds / rate_frames, duration_us / 1e6, 0.0)),
+    let sql = "SELECT kind, sum(coalesce(frames * 1.0 * rate_seconds / rate_frames, duration_us / 1e6, 0.0)),
                 sum(frames)
-         FROM track WHERE kind <> 'media' AND frames IS NOT NULL GROUP BY kind",
-    )?;
-    let rows = statement.query_map([], |row| {
+         FROM track WHERE kind <> 'media' AND frames IS NOT NULL GROUP BY kind";
+    connection.read_rows(sql, [], |row| {
         let amount = TrackAmount {
             hours: row.get::<_, f64>(1)? / 3600.0,
             frames: row.get::<_, i64>(2)?.unsigned_abs(),
         };
         Ok((row.get(0)?, amount))
-    })?;
-    Ok(rows.collect::<rusqlite::Result<_>>()?)
+    })
 }
 
 /// Returns the sizes of the file's contents in bytes, by kind of content.
@@ -133,36 +129,32 @@ pub(crate) fn content_sizes_bytes(connection: &Connection) -> CorpusResult<BTree
 
 /// Returns the signers by name.
 pub(crate) fn load_signer_infos(connection: &Connection) -> CorpusResult<Vec<SignerInfo>> {
-    let mut statement = connection.prepare_cached(&format!(
+    let sql = format!(
         "SELECT name, handedness, (SELECT count(*) FROM recording r WHERE r.signer_id = g.id
              OR EXISTS (SELECT 1 FROM tier i WHERE i.recording_id = r.id AND i.participant = g.name))
          FROM {SIGNER_ROWS_SQL} ORDER BY name"
-    ))?;
-    let rows = statement.query_map([], |row| {
+    );
+    connection.read_rows(&sql, [], |row| {
         Ok(SignerInfo {
             name: row.get(0)?,
             handedness: row.get(1)?,
             recordings: row.get::<_, i64>(2)?.unsigned_abs(),
         })
-    })?;
-    Ok(rows.collect::<rusqlite::Result<_>>()?)
+    })
 }
 
 /// Returns the inventories, oldest first.
 pub(crate) fn load_inventory_infos(connection: &Connection) -> CorpusResult<Vec<InventoryInfo>> {
-    let mut statement = connection.prepare_cached(
-        "SELECT key, component || coalesce('.' || feature, ''),
+    let sql = "SELECT key, component || coalesce('.' || feature, ''),
                 (SELECT count(*) FROM inventory_value v WHERE v.inventory_id = i.id),
                 (SELECT count(*) FROM tier t WHERE t.inventory_id = i.id)
-         FROM inventory i ORDER BY id",
-    )?;
-    let rows = statement.query_map([], |row| {
+         FROM inventory i ORDER BY id";
+    connection.read_rows(sql, [], |row| {
         Ok(InventoryInfo {
             id: row.get(0)?,
             field: row.get(1)?,
             values: row.get::<_, i64>(2)?.unsigned_abs(),
             tiers: row.get::<_, i64>(3)?.unsigned_abs(),
         })
-    })?;
-    Ok(rows.collect::<rusqlite::Result<_>>()?)
+    })
 }

@@ -4,9 +4,10 @@ use chereme_sign::query::TextPattern;
 use chereme_sign::text::fold_text;
 use rusqlite::functions::FunctionFlags;
 use rusqlite::types::ValueRef;
-use rusqlite::{Connection, OptionalExtension, ToSql};
+use rusqlite::{Connection, ToSql};
 use serde_json::{Map, Value};
 
+use crate::db::cached_sql::CachedSql;
 use crate::error::CorpusResult;
 
 /// Type of a column's content.
@@ -547,17 +548,10 @@ pub(crate) fn token_ids_of_signer(connection: &Connection, signer: i64) -> Corpu
 }
 
 fn query_row_ids(connection: &Connection, sql: &str, params: impl rusqlite::Params) -> CorpusResult<Vec<i64>> {
-    let mut statement = connection.prepare_cached(sql)?;
-    let ids = statement
-        .query_map(params, |row| row.get(0))?
-        .collect::<rusqlite::Result<_>>()?;
-    Ok(ids)
+    connection.read_values(sql, params)
 }
 
 /// Returns the time of the newest operation.
 pub(crate) fn last_change(connection: &Connection) -> CorpusResult<Option<String>> {
-    Ok(connection
-        .prepare_cached("SELECT at FROM operation ORDER BY id DESC LIMIT 1")?
-        .query_row([], |row| row.get(0))
-        .optional()?)
+    connection.find_value("SELECT at FROM operation ORDER BY id DESC LIMIT 1", [])
 }

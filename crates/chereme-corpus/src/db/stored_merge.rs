@@ -10,6 +10,7 @@ use super::stored_history;
 use super::stored_history::tracked::{
     TRACKED_TABLE_REFERENCES, column_from_image_sql, load_table_columns, refers_to, row_image,
 };
+use crate::db::cached_sql::CachedSql;
 use crate::db::people::ADJUDICATION_ANNOTATOR;
 use crate::error::CorpusResult;
 
@@ -68,10 +69,8 @@ pub(crate) fn merged_before(connection: &Connection, after: i64, other: &Connect
     let mut newest: Option<i64> = None;
     for (key, _) in list_corpus_notes(other, MERGED_OPERATION_PREFIX)? {
         let sql = "SELECT id FROM operation WHERE uid = unhex(?1) AND id > ?2";
-        let merged_operation: Option<i64> = connection
-            .prepare_cached(sql)?
-            .query_row(params![&key[MERGED_OPERATION_PREFIX.len()..], after], |row| row.get(0))
-            .optional()?;
+        let merged_operation: Option<i64> =
+            connection.find_value(sql, params![&key[MERGED_OPERATION_PREFIX.len()..], after])?;
         // `None` is less than any number.
         newest = newest.max(merged_operation);
     }
@@ -183,11 +182,7 @@ impl<'c> MergeSide<'c> {
         };
         let image = row_image(&load_table_columns(self.connection, table)?, "r");
         let sql = format!("SELECT {image} FROM main.{table} AS r WHERE id = ?1");
-        let text: Option<String> = self
-            .connection
-            .prepare_cached(&sql)?
-            .query_row([id], |row| row.get(0))
-            .optional()?;
+        let text: Option<String> = self.connection.find_value(&sql, [id])?;
         match text.and_then(|text| serde_json::from_str(&text).ok()) {
             Some(image) => Ok(Some(self.by_uid(table, image, &BTreeMap::new())?)),
             None => Ok(None),
@@ -294,8 +289,7 @@ pub(crate) fn insert_row_image(connection: &Connection, table: &str, image: &Row
         values.join(",")
     );
     let text = Value::Object(image.clone()).to_string();
-    connection.prepare_cached(&sql)?.execute([text])?;
-    Ok(connection.last_insert_rowid())
+    connection.insert_row(&sql, [text])
 }
 
 /// Updates some columns of a row; references are row numbers.
@@ -311,15 +305,13 @@ pub(crate) fn update_row_image(connection: &Connection, table: &str, id: i64, im
     }
     let sql = format!("UPDATE main.{table} SET {} WHERE id = ?2", settings.join(","));
     let text = Value::Object(image.clone()).to_string();
-    connection.prepare_cached(&sql)?.execute(params![text, id])?;
-    Ok(())
+    connection.change_rows(&sql, params![text, id])
 }
 
 /// Deletes a row.
 pub(crate) fn delete_table_row(connection: &Connection, table: &str, id: i64) -> CorpusResult<()> {
     let sql = format!("DELETE FROM main.{table} WHERE id = ?1");
-    connection.prepare_cached(&sql)?.execute([id])?;
-    Ok(())
+    connection.change_rows(&sql, [id])
 }
 
 /// Returns the existing row with the same unique name as another one, if there is one.
@@ -396,32 +388,34 @@ pub(crate) fn copy_parts(original: StoredRowPlace<'_>, copy: StoredRowPlace<'_>,
         "track" => {
             let sql = "SELECT channel_group, first_frame, frames, b.hash, b.data FROM track_block t
                        JOIN block b ON b.hash = t.hash WHERE track_id = ?1";
-            let mut statement = from.prepare_cached(sql)?;
-            let mut rows = statement.query([old])?;
-            while let Some(row) = rows.next()? {
+            from.visit_rows(sql, [old], |row| {
                 let (group, first, frames): (String, i64, i64) = (row.get(0)?, row.get(1)?, row.get(2)?);
                 let (hash, data): (Vec<u8>, Vec<u8>) = (row.get(3)?, row.get(4)?);
                 super::stored_tracks::ensure_group(into, &group)?;
-                into.prepare_cached("INSERT OR IGNORE INTO block (hash, data) VALUES (?1, ?2)")?
-                    .execute(params![hash, data])?;
-                into.prepare_cached(
+                into.change_rows(
+                    "INSERT OR IGNORE INTO block (hash, data) VALUES (?1, ?2)",
+                    params![hash, data],
+                )?;
+                into.change_rows(
                     "INSERT INTO track_block (track_id, channel_group, first_frame, frames, hash)
                      VALUES (?1, ?2, ?3, ?4, ?5)",
-                )?
-                .execute(params![new, group, first, frames, hash])?;
-            }
+                    params![new, group, first, frames, hash],
+                )?;
+                Ok(())
+            })?;
         }
         "token" => copy_rows(original, copy, "token_value", "token_id")?,
         "recipe" => copy_rows(original, copy, "recipe_input", "recipe_id")?,
         "sign" => {
             let sql = "SELECT language, text FROM sign_text WHERE sign_id = ?1";
-            let mut statement = from.prepare_cached(sql)?;
-            let mut rows = statement.query([old])?;
-            while let Some(row) = rows.next()? {
+            from.visit_rows(sql, [old], |row| {
                 let (language, text): (String, String) = (row.get(0)?, row.get(1)?);
-                into.prepare_cached("INSERT OR IGNORE INTO sign_text (sign_id, language, text) VALUES (?1, ?2, ?3)")?
-                    .execute(params![new, language, text])?;
-            }
+                into.change_rows(
+                    "INSERT OR IGNORE INTO sign_text (sign_id, language, text) VALUES (?1, ?2, ?3)",
+                    params![new, language, text],
+                )?;
+                Ok(())
+            })?;
         }
         _ => {}
     }
@@ -459,10 +453,7 @@ fn copy_rows(original: StoredRowPlace<'_>, copy: StoredRowPlace<'_>, part: &str,
             let uid = uid_of(from, other, id)?;
             let sql = format!("SELECT id FROM main.{other} WHERE uid = unhex(?1)");
             let here: Option<i64> = match uid {
-                Some(uid) => into
-                    .prepare_cached(&sql)?
-                    .query_row([uid], |row| row.get(0))
-                    .optional()?,
+                Some(uid) => into.find_value(&sql, [uid])?,
                 None => None,
             };
             *value = here.map_or(Value::Null, Value::from);
@@ -484,9 +475,7 @@ pub(crate) fn token_of(connection: &Connection, annotation: i64) -> CorpusResult
 pub(crate) fn list_corpus_notes(connection: &Connection, prefix: &str) -> CorpusResult<Vec<(String, String)>> {
     // A prefix of letters such as `_` would be a wildcard of LIKE.
     let sql = "SELECT key, value FROM meta WHERE substr(key, 1, length(?1)) = ?1 ORDER BY key";
-    let mut statement = connection.prepare_cached(sql)?;
-    let rows = statement.query_map([prefix], |row| Ok((row.get(0)?, row.get(1)?)))?;
-    Ok(rows.collect::<rusqlite::Result<_>>()?)
+    connection.read_rows(sql, [prefix], |row| Ok((row.get(0)?, row.get(1)?)))
 }
 
 /// Returns the annotations of a recording's adjudicated tiers between whose two candidates nobody has decided.
@@ -495,37 +484,31 @@ pub(crate) fn undecided_adjudications(connection: &Connection, recording: i64) -
          WHERE t.recording_id = ?1 AND t.annotator = ?2 AND hex(a.uid) IN (
              SELECT json_extract(value, '$.uid') FROM meta
              WHERE key >= 'conflict:' AND key < 'conflict;' AND json_extract(value, '$.decided') IS NULL)";
-    let mut statement = connection.prepare_cached(sql)?;
-    let rows = statement.query_map(params![recording, ADJUDICATION_ANNOTATOR], |row| row.get(0))?;
-    Ok(rows.collect::<rusqlite::Result<_>>()?)
+    connection.read_values(sql, params![recording, ADJUDICATION_ANNOTATOR])
 }
 
 /// Writes an entry of the corpus's own notes.
 pub(crate) fn set_note(connection: &Connection, key: &str, value: &str) -> CorpusResult<()> {
-    let stored_value: Option<String> = connection
-        .prepare_cached("SELECT value FROM meta WHERE key = ?1")?
-        .query_row([key], |row| row.get(0))
-        .optional()?;
+    let stored_value: Option<String> = connection.find_value("SELECT value FROM meta WHERE key = ?1", [key])?;
     // An update that changes nothing would still be recorded as a change.
     let sql = match stored_value {
         Some(known) if known == value => return Ok(()),
         Some(_) => "UPDATE meta SET value = ?2 WHERE key = ?1",
         None => "INSERT INTO meta (key, value) VALUES (?1, ?2)",
     };
-    connection.prepare_cached(sql)?.execute([key, value])?;
-    Ok(())
+    connection.change_rows(sql, [key, value])
 }
 
 /// Reports whether anything refers to a sign.
 pub(crate) fn sign_is_used(connection: &Connection, sign: i64) -> CorpusResult<bool> {
     let sql = "SELECT EXISTS (SELECT 1 FROM token WHERE sign_id = ?1)";
-    Ok(connection.prepare_cached(sql)?.query_row([sign], |row| row.get(0))?)
+    connection.read_value(sql, [sign])
 }
 
 /// Reports whether a track has numbers.
 pub(crate) fn has_blocks(connection: &Connection, track: i64) -> CorpusResult<bool> {
     let sql = "SELECT EXISTS (SELECT 1 FROM track_block WHERE track_id = ?1)";
-    Ok(connection.prepare_cached(sql)?.query_row([track], |row| row.get(0))?)
+    connection.read_value(sql, [track])
 }
 
 /// Reports whether other rows refer to a row; its own parts and derived tokens do not count.
@@ -537,7 +520,7 @@ pub(crate) fn is_referred_to(connection: &Connection, table: &str, id: i64) -> C
         }
         for (column, _) in references.iter().filter(|reference| reference.1 == table) {
             let sql = format!("SELECT EXISTS (SELECT 1 FROM main.{other} WHERE {column} = ?1)");
-            if connection.prepare_cached(&sql)?.query_row([id], |row| row.get(0))? {
+            if connection.read_value(&sql, [id])? {
                 return Ok(true);
             }
         }
@@ -624,7 +607,7 @@ const PART_TABLES_BY_OWNER: [(&str, &str); 6] = [
 pub(crate) fn delete_parts(connection: &Connection, table: &str, id: i64) -> CorpusResult<()> {
     for (_, part) in PART_TABLES_BY_OWNER.iter().filter(|entry| entry.0 == table) {
         let sql = format!("DELETE FROM main.{part} WHERE {table}_id = ?1");
-        connection.prepare_cached(&sql)?.execute([id])?;
+        connection.change_rows(&sql, [id])?;
     }
     Ok(())
 }

@@ -7,6 +7,7 @@ use sha2::{Digest, Sha256};
 
 use super::stored_tracks::{self, TrackKind};
 use super::upgrade::NONMANUALS_TRACK_NAME;
+use crate::db::cached_sql::CachedSql;
 use crate::error::CorpusResult;
 
 /// One stored block of a track.
@@ -28,30 +29,22 @@ pub(crate) fn insert_block(
 ) -> CorpusResult<()> {
     let hash = insert_bytes(connection, data)?;
     stored_tracks::ensure_group(connection, group)?;
-    connection
-        .prepare_cached(
-            "INSERT INTO track_block (track_id, channel_group, first_frame, frames, hash)
-             VALUES (?1, ?2, ?3, ?4, ?5)",
-        )?
-        .execute(params![track, group, first_frame as i64, frames as i64, hash])?;
-    Ok(())
+    let sql = "INSERT INTO track_block (track_id, channel_group, first_frame, frames, hash)
+             VALUES (?1, ?2, ?3, ?4, ?5)";
+    connection.change_rows(sql, params![track, group, first_frame as i64, frames as i64, hash])
 }
 
 /// Removes the blocks of a track; their bytes stay.
 pub(crate) fn remove_blocks(connection: &Connection, track: i64) -> CorpusResult<()> {
-    connection
-        .prepare_cached("DELETE FROM track_block WHERE track_id = ?1")?
-        .execute([track])?;
-    Ok(())
+    connection.change_rows("DELETE FROM track_block WHERE track_id = ?1", [track])
 }
 
 /// Stores the bytes of a block unless they are stored already, and returns its name.
 fn insert_bytes(connection: &Connection, data: &[u8]) -> CorpusResult<Vec<u8>> {
     // Blocks are named by their content, so that equal movement is stored once.
     let hash = Sha256::digest(data).to_vec();
-    connection
-        .prepare_cached("INSERT OR IGNORE INTO block (hash, data) VALUES (?1, ?2)")?
-        .execute(params![hash, data])?;
+    let sql = "INSERT OR IGNORE INTO block (hash, data) VALUES (?1, ?2)";
+    connection.change_rows(sql, params![hash, data])?;
     Ok(hash)
 }
 
@@ -64,25 +57,26 @@ pub(crate) fn visit_track_blocks(
     mut take: impl FnMut(BlockRow) -> CorpusResult<()>,
 ) -> CorpusResult<()> {
     // The block that holds the first frame begins before it: the last one that does not begin after it.
-    let mut statement = connection.prepare_cached(
-        "SELECT t.first_frame, t.frames, t.hash, b.data
+    let sql = "SELECT t.first_frame, t.frames, t.hash, b.data
          FROM track_block t JOIN block b ON b.hash = t.hash
          WHERE t.track_id = ?1 AND t.channel_group = ?2 AND t.first_frame < ?4
            AND t.first_frame >= coalesce((
                SELECT max(first_frame) FROM track_block
                WHERE track_id = ?1 AND channel_group = ?2 AND first_frame <= ?3), 0)
-         ORDER BY t.first_frame",
-    )?;
-    let mut rows = statement.query(params![track, group, frames.start as i64, frames.end as i64])?;
-    while let Some(row) = rows.next()? {
-        take(BlockRow {
-            first_frame: usize::try_from(row.get::<_, i64>(0)?).unwrap_or(usize::MAX),
-            frames: usize::try_from(row.get::<_, i64>(1)?).unwrap_or(usize::MAX),
-            hash: row.get(2)?,
-            data: row.get(3)?,
-        })?;
-    }
-    Ok(())
+         ORDER BY t.first_frame";
+    connection.visit_rows(
+        sql,
+        params![track, group, frames.start as i64, frames.end as i64],
+        |row| {
+            take(BlockRow {
+                first_frame: usize::try_from(row.get::<_, i64>(0)?).unwrap_or(usize::MAX),
+                frames: usize::try_from(row.get::<_, i64>(1)?).unwrap_or(usize::MAX),
+                hash: row.get(2)?,
+                data: row.get(3)?,
+            })?;
+            Ok(())
+        },
+    )
 }
 
 /// Returns the SHA-256 of the names of a track's blocks and of its curves, if it has any: the content hash of its
@@ -132,18 +126,16 @@ fn digest_track(connection: &Connection, curves: i64, digest: &mut Sha256) -> Co
         digest.update([0]);
     }
     let sql = "SELECT hash FROM track_block WHERE track_id = ?1 ORDER BY channel_group, first_frame";
-    let mut statement = connection.prepare_cached(sql)?;
-    let mut rows = statement.query([curves])?;
-    while let Some(row) = rows.next()? {
+    connection.visit_rows(sql, [curves], |row| {
         digest.update(row.get_ref(0)?.as_blob().unwrap_or_default());
-    }
-    Ok(())
+        Ok(())
+    })
 }
 
 /// Returns the row of the track of non-manuals that accompanies a movement's track.
 pub(crate) fn find_nonmanual_track(connection: &Connection, track: i64) -> CorpusResult<Option<i64>> {
     let sql = "SELECT recording_id FROM track WHERE id = ?1";
-    let recording: i64 = connection.prepare_cached(sql)?.query_row([track], |row| row.get(0))?;
+    let recording: i64 = connection.read_value(sql, [track])?;
     stored_tracks::find_named_track(connection, recording, TrackKind::Curves, NONMANUALS_TRACK_NAME)
 }
 

@@ -4,8 +4,7 @@ use std::collections::BTreeMap;
 use std::io::Read;
 
 use chereme_formats::roles::TierMapping;
-use chereme_sign::ErrorRemedy;
-use rusqlite::{Connection, OptionalExtension, Row, params};
+use rusqlite::{Connection, Row, params};
 use serde::Serialize;
 use serde_json::json;
 use sha2::{Digest as _, Sha256};
@@ -14,6 +13,7 @@ use super::damaged_row_error;
 use super::people::{self, SIGNER_ROWS_SQL};
 use super::stored_columns::{NamedColumn, RecordOrigin, read_word_column};
 use super::stored_motion::to_hex_text;
+use crate::db::cached_sql::CachedSql;
 use crate::error::{CorpusError, CorpusResult};
 
 const LARGEST_SOURCE: u64 = 1 << 30;
@@ -112,19 +112,14 @@ pub(crate) fn signer_named(connection: &Connection, name: &str, handedness: Opti
     if let Some(signer) = find_signer(connection, name)? {
         return Ok(signer.id);
     }
-    connection
-        .prepare_cached("INSERT INTO signer (name, handedness) VALUES (?1, ?2)")?
-        .execute(params![name, handedness])?;
-    Ok(connection.last_insert_rowid())
+    let sql = "INSERT INTO signer (name, handedness) VALUES (?1, ?2)";
+    connection.insert_row(sql, params![name, handedness])
 }
 
 /// Returns the person called `name`, or else the one of whom that is another name.
 pub(crate) fn find_signer(connection: &Connection, name: &str) -> CorpusResult<Option<SignerRow>> {
     let sql = "SELECT id, name, handedness, notes FROM signer WHERE name = ?1";
-    let person = connection
-        .prepare_cached(sql)?
-        .query_row([name], signer_row)
-        .optional()?;
+    let person = connection.find_row(sql, [name], signer_row)?;
     match person {
         Some(person) => Ok(Some(person)),
         None => match people::find_person_by_alias(connection, name)? {
@@ -137,15 +132,13 @@ pub(crate) fn find_signer(connection: &Connection, name: &str) -> CorpusResult<O
 /// Returns the signer of that row.
 pub(crate) fn find_signer_row(connection: &Connection, id: i64) -> CorpusResult<Option<SignerRow>> {
     let sql = "SELECT id, name, handedness, notes FROM signer WHERE id = ?1";
-    Ok(connection.prepare_cached(sql)?.query_row([id], signer_row).optional()?)
+    connection.find_row(sql, [id], signer_row)
 }
 
 /// Returns all signers by name, without people who only annotate.
 pub(crate) fn load_signer_rows(connection: &Connection) -> CorpusResult<Vec<SignerRow>> {
     let sql = format!("SELECT id, name, handedness, notes FROM {SIGNER_ROWS_SQL} ORDER BY name");
-    let mut statement = connection.prepare_cached(&sql)?;
-    let rows = statement.query_map([], signer_row)?.collect::<rusqlite::Result<_>>()?;
-    Ok(rows)
+    connection.read_rows(&sql, [], signer_row)
 }
 
 fn signer_row(row: &Row<'_>) -> rusqlite::Result<SignerRow> {
@@ -159,63 +152,45 @@ fn signer_row(row: &Row<'_>) -> rusqlite::Result<SignerRow> {
 
 /// Returns the row of the skeleton with this content hash, and inserts it with `document` if it is missing.
 pub(crate) fn skeleton_stored(connection: &Connection, hash: &str, joints: usize, document: &str) -> CorpusResult<i64> {
-    let skeleton_id = connection
-        .prepare_cached("SELECT id FROM skeleton WHERE hash = ?1")?
-        .query_row([hash], |row| row.get(0))
-        .optional()?;
+    let skeleton_id = connection.find_value("SELECT id FROM skeleton WHERE hash = ?1", [hash])?;
     if let Some(id) = skeleton_id {
         return Ok(id);
     }
-    connection
-        .prepare_cached("INSERT INTO skeleton (hash, joints, document) VALUES (?1, ?2, ?3)")?
-        .execute(params![hash, joints as i64, document])?;
-    Ok(connection.last_insert_rowid())
+    let sql = "INSERT INTO skeleton (hash, joints, document) VALUES (?1, ?2, ?3)";
+    connection.insert_row(sql, params![hash, joints as i64, document])
 }
 
 /// Gives a track another skeleton, and deletes the previous one if no track uses it any more.
 pub(crate) fn set_skeleton(connection: &Connection, track: i64, skeleton: i64) -> CorpusResult<()> {
-    let former: i64 = connection
-        .prepare_cached("SELECT skeleton_id FROM track WHERE id = ?1")?
-        .query_row([track], |row| row.get(0))?;
+    let former: i64 = connection.read_value("SELECT skeleton_id FROM track WHERE id = ?1", [track])?;
     if former == skeleton {
         return Ok(());
     }
-    connection
-        .prepare_cached("UPDATE track SET skeleton_id = ?2 WHERE id = ?1")?
-        .execute([track, skeleton])?;
-    connection
-        .prepare_cached(
-            "DELETE FROM skeleton WHERE id = ?1
-             AND NOT EXISTS (SELECT 1 FROM track WHERE skeleton_id = ?1)",
-        )?
-        .execute([former])?;
-    Ok(())
+    connection.change_rows("UPDATE track SET skeleton_id = ?2 WHERE id = ?1", [track, skeleton])?;
+    let sql = "DELETE FROM skeleton WHERE id = ?1
+             AND NOT EXISTS (SELECT 1 FROM track WHERE skeleton_id = ?1)";
+    connection.change_rows(sql, [former])
 }
 
 /// Returns the document of a skeleton.
 pub(crate) fn skeleton_document(connection: &Connection, id: i64) -> CorpusResult<String> {
-    Ok(connection
-        .prepare_cached("SELECT document FROM skeleton WHERE id = ?1")?
-        .query_row([id], |row| row.get(0))?)
+    connection.read_value("SELECT document FROM skeleton WHERE id = ?1", [id])
 }
 
 /// Writes a recording and returns its row; its `id` and `signer` are not used. The glosses of its tiers are looked up in
 /// the corpus's lexicon, if there is only one.
 pub(crate) fn insert_recording(connection: &Connection, row: &RecordingRow) -> CorpusResult<i64> {
-    connection
-        .prepare_cached(
-            "INSERT INTO recording (name, signer_id, origin, duration_us, licence, notes, lexicon_id)
-             VALUES (?1, ?2, ?3, ?4, ?5, ?6, (SELECT CASE count(*) WHEN 1 THEN min(id) END FROM lexicon))",
-        )?
-        .execute(params![
-            row.name,
-            row.signer_id,
-            NamedColumn(row.origin),
-            row.duration_us,
-            row.licence,
-            row.notes
-        ])?;
-    Ok(connection.last_insert_rowid())
+    let sql = "INSERT INTO recording (name, signer_id, origin, duration_us, licence, notes, lexicon_id)
+             VALUES (?1, ?2, ?3, ?4, ?5, ?6, (SELECT CASE count(*) WHEN 1 THEN min(id) END FROM lexicon))";
+    let values = params![
+        row.name,
+        row.signer_id,
+        NamedColumn(row.origin),
+        row.duration_us,
+        row.licence,
+        row.notes
+    ];
+    connection.insert_row(sql, values)
 }
 
 const SELECT_RECORDING_SQL: &str = "
@@ -239,24 +214,18 @@ fn recording_row(row: &Row<'_>) -> rusqlite::Result<RecordingRow> {
 /// Returns the recording of that row.
 pub(crate) fn load_recording_row(connection: &Connection, id: i64) -> CorpusResult<RecordingRow> {
     connection
-        .prepare_cached(&format!("{SELECT_RECORDING_SQL} WHERE r.id = ?1"))?
-        .query_row([id], recording_row)
-        .optional()?
+        .find_row(&format!("{SELECT_RECORDING_SQL} WHERE r.id = ?1"), [id], recording_row)?
         .ok_or_else(|| {
             CorpusError::from_wrong_message(format!("there is no recording:{id}"))
                 .with_error_place(format!("recording:{id}"))
-                .with_advice(ErrorRemedy::command_remedy(
-                    "`chereme list CORPUS recordings` lists them",
-                ))
+                .with_command_advice("`chereme list CORPUS recordings` lists them")
         })
 }
 
 /// Returns the recording of that name.
 pub(crate) fn recording_named(connection: &Connection, name: &str) -> CorpusResult<Option<RecordingRow>> {
-    Ok(connection
-        .prepare_cached(&format!("{SELECT_RECORDING_SQL} WHERE r.name = ?1"))?
-        .query_row([name], recording_row)
-        .optional()?)
+    let sql = format!("{SELECT_RECORDING_SQL} WHERE r.name = ?1");
+    connection.find_row(&sql, [name], recording_row)
 }
 
 /// A file that rows came from.
@@ -304,13 +273,12 @@ pub(crate) fn insert_source_file(
 ) -> CorpusResult<i64> {
     let encoded = bytes.map(|bytes| zstd::encode_all(bytes, 9)).transpose();
     let data = encoded.map_err(|error| CorpusError::from_file_failure(&row.name, error))?;
-    connection
-        .prepare_cached(
-            "INSERT INTO source_file (recording_id, kind, name, path, hash, data)
-             VALUES (?1, ?2, ?3, ?4, ?5, ?6)",
-        )?
-        .execute(params![row.recording_id, row.kind, row.name, row.path, row.hash, data])?;
-    Ok(connection.last_insert_rowid())
+    let sql = "INSERT INTO source_file (recording_id, kind, name, path, hash, data)
+             VALUES (?1, ?2, ?3, ?4, ?5, ?6)";
+    connection.insert_row(
+        sql,
+        params![row.recording_id, row.kind, row.name, row.path, row.hash, data],
+    )
 }
 
 /// Returns the files of a recording, oldest first.
@@ -337,11 +305,7 @@ fn source_files_where(
         "SELECT id, recording_id, kind, name, path, hash FROM source_file
          WHERE {condition} ORDER BY id"
     );
-    let mut statement = connection.prepare_cached(&sql)?;
-    let rows = statement
-        .query_map([value], source_file_row)?
-        .collect::<rusqlite::Result<_>>()?;
-    Ok(rows)
+    connection.read_rows(&sql, [value], source_file_row)
 }
 
 fn source_file_row(row: &Row<'_>) -> rusqlite::Result<SourceFileRow> {
@@ -372,26 +336,23 @@ pub(crate) fn set_source_mapping(
     columns: &BTreeMap<String, String>,
 ) -> CorpusResult<()> {
     let text = (!columns.is_empty()).then(|| json!({ "columns": columns }).to_string());
-    connection
-        .prepare_cached("UPDATE source_file SET mapping = ?2 WHERE id = ?1 AND mapping IS NOT ?2")?
-        .execute(params![id, text])?;
-    Ok(())
+    let sql = "UPDATE source_file SET mapping = ?2 WHERE id = ?1 AND mapping IS NOT ?2";
+    connection.change_rows(sql, params![id, text])
 }
 
 /// Returns the mapping with which a stored table is read, if the user gave one.
 pub(crate) fn source_mapping(connection: &Connection, id: i64) -> CorpusResult<Option<TierMapping>> {
-    let text: Option<String> = connection
-        .prepare_cached("SELECT mapping FROM source_file WHERE id = ?1")?
-        .query_row([id], |row| row.get(0))?;
+    let text: Option<String> = connection.read_value("SELECT mapping FROM source_file WHERE id = ?1", [id])?;
     let read = text.map(|text| TierMapping::from_json(&text)).transpose();
     read.map_err(|error| damaged_row_error(format!("source_file {id}"), error.to_string()))
 }
 
 /// Returns the bytes of a stored file, which match its hash.
 pub(crate) fn source_bytes(connection: &Connection, id: i64) -> CorpusResult<Option<Vec<u8>>> {
-    let (data, name, hash): (Option<Vec<u8>>, String, String) = connection
-        .prepare_cached("SELECT data, name, hash FROM source_file WHERE id = ?1")?
-        .query_row([id], |row| Ok((row.get(0)?, row.get(1)?, row.get(2)?)))?;
+    let (data, name, hash): (Option<Vec<u8>>, String, String) =
+        connection.read_row("SELECT data, name, hash FROM source_file WHERE id = ?1", [id], |row| {
+            Ok((row.get(0)?, row.get(1)?, row.get(2)?))
+        })?;
     let Some(data) = data else { return Ok(None) };
     let fault = |reason: String| damaged_row_error(format!("the stored file {name:?}"), reason);
     let mut bytes = Vec::new();
@@ -407,48 +368,39 @@ pub(crate) fn source_bytes(connection: &Connection, id: i64) -> CorpusResult<Opt
 
 /// Returns all recordings, oldest first.
 pub(crate) fn load_recording_rows(connection: &Connection) -> CorpusResult<Vec<RecordingRow>> {
-    let mut statement = connection.prepare_cached(&format!("{SELECT_RECORDING_SQL} ORDER BY r.id"))?;
-    let rows = statement
-        .query_map([], recording_row)?
-        .collect::<rusqlite::Result<_>>()?;
-    Ok(rows)
+    connection.read_rows(&format!("{SELECT_RECORDING_SQL} ORDER BY r.id"), [], recording_row)
 }
 
 /// Makes the recording at least `micros` long.
 pub(crate) fn lengthen_recording(connection: &Connection, recording: i64, micros: i64) -> CorpusResult<()> {
-    connection
-        .prepare_cached("UPDATE recording SET duration_us = ?2 WHERE id = ?1 AND duration_us < ?2")?
-        .execute([recording, micros])?;
-    Ok(())
+    let sql = "UPDATE recording SET duration_us = ?2 WHERE id = ?1 AND duration_us < ?2";
+    connection.change_rows(sql, [recording, micros])
 }
 
 /// Writes a motion track and returns its row; its `id` is not used.
 pub(crate) fn insert_motion_track(connection: &Connection, row: &MotionTrackRow) -> CorpusResult<i64> {
-    connection
-        .prepare_cached(
-            "INSERT INTO track (recording_id, kind, name, offset_us, skeleton_id, frames,
+    let sql = "INSERT INTO track (recording_id, kind, name, offset_us, skeleton_id, frames,
                  rate_frames, rate_seconds, frame_time, metres_per_unit, axes, root_order, roles,
                  channel_groups, root_scale, duration_us)
              VALUES (?1, 'skeleton', ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14,
-                 CAST(round(?5 * 1000000.0 * ?7 / ?6) AS INTEGER))",
-        )?
-        .execute(params![
-            row.recording_id,
-            row.name,
-            row.offset_us,
-            row.skeleton_id,
-            row.frames,
-            row.rate_frames,
-            row.rate_seconds,
-            row.frame_time,
-            row.metres_per_unit,
-            row.axes,
-            row.root_order,
-            row.roles,
-            row.channel_groups,
-            row.root_scale
-        ])?;
-    Ok(connection.last_insert_rowid())
+                 CAST(round(?5 * 1000000.0 * ?7 / ?6) AS INTEGER))";
+    let values = params![
+        row.recording_id,
+        row.name,
+        row.offset_us,
+        row.skeleton_id,
+        row.frames,
+        row.rate_frames,
+        row.rate_seconds,
+        row.frame_time,
+        row.metres_per_unit,
+        row.axes,
+        row.root_order,
+        row.roles,
+        row.channel_groups,
+        row.root_scale
+    ];
+    connection.insert_row(sql, values)
 }
 
 /// Removes a recording's movement and sets the length and signer of the movement that replaces it; the blocks stay.
@@ -465,42 +417,32 @@ pub(crate) fn clear_motion(
         format!("DELETE FROM channel WHERE track_id IN ({track_query})"),
         format!("DELETE FROM track WHERE id IN ({track_query})"),
     ] {
-        connection.prepare_cached(&sql)?.execute([recording])?;
+        connection.change_rows(&sql, [recording])?;
     }
-    connection
-        .prepare_cached("UPDATE recording SET duration_us = ?2, signer_id = ?3 WHERE id = ?1")?
-        .execute(params![recording, duration_us, signer])?;
-    Ok(())
+    connection.change_rows(
+        "UPDATE recording SET duration_us = ?2, signer_id = ?3 WHERE id = ?1",
+        params![recording, duration_us, signer],
+    )
 }
 
 /// Sets the number of frames of a track, and its length accordingly.
 pub(crate) fn set_frames(connection: &Connection, track: i64, frames: i64) -> CorpusResult<()> {
-    connection
-        .prepare_cached(
-            "UPDATE track SET frames = ?2, duration_us =
-                 CAST(round(?2 * 1000000.0 * rate_seconds / rate_frames) AS INTEGER) WHERE id = ?1",
-        )?
-        .execute([track, frames])?;
-    Ok(())
+    let sql = "UPDATE track SET frames = ?2, duration_us =
+                 CAST(round(?2 * 1000000.0 * rate_seconds / rate_frames) AS INTEGER) WHERE id = ?1";
+    connection.change_rows(sql, [track, frames])
 }
 
 /// Returns the track of a recording's body: the skeleton track called `body`, otherwise the oldest skeleton track.
 pub(crate) fn body_track(connection: &Connection, recording: i64) -> CorpusResult<Option<MotionTrackRow>> {
     let sql =
         format!("{MOTION_TRACK} WHERE recording_id = ?1 AND kind = 'skeleton' ORDER BY name <> 'body', id LIMIT 1");
-    Ok(connection
-        .prepare_cached(&sql)?
-        .query_row([recording], motion_track_row)
-        .optional()?)
+    connection.find_row(&sql, [recording], motion_track_row)
 }
 
 /// Returns the skeleton track of that row.
 pub(crate) fn skeleton_track(connection: &Connection, track: i64) -> CorpusResult<Option<MotionTrackRow>> {
     let sql = format!("{MOTION_TRACK} WHERE id = ?1 AND kind = 'skeleton'");
-    Ok(connection
-        .prepare_cached(&sql)?
-        .query_row([track], motion_track_row)
-        .optional()?)
+    connection.find_row(&sql, [track], motion_track_row)
 }
 
 const MOTION_TRACK: &str = "
@@ -530,35 +472,23 @@ fn motion_track_row(row: &Row<'_>) -> rusqlite::Result<MotionTrackRow> {
 
 /// Writes a media track and returns its row; the `id` given is not used.
 pub(crate) fn insert_media_track(connection: &Connection, row: &MediaTrackRow) -> CorpusResult<i64> {
-    connection
-        .prepare_cached(
-            "INSERT INTO track (recording_id, kind, name, offset_us, media_url, media_type)
-             VALUES (?1, 'media', ?2, ?3, ?4, ?5)",
-        )?
-        .execute(params![
-            row.recording_id,
-            row.name,
-            row.offset_us,
-            row.url,
-            row.media_type
-        ])?;
-    Ok(connection.last_insert_rowid())
+    let sql = "INSERT INTO track (recording_id, kind, name, offset_us, media_url, media_type)
+             VALUES (?1, 'media', ?2, ?3, ?4, ?5)";
+    connection.insert_row(
+        sql,
+        params![row.recording_id, row.name, row.offset_us, row.url, row.media_type],
+    )
 }
 
 /// Sets the location of a media track's file.
 pub(crate) fn move_media_track(connection: &Connection, track: i64, url: &str) -> CorpusResult<()> {
-    connection
-        .prepare_cached("UPDATE track SET media_url = ?2 WHERE id = ?1 AND kind = 'media'")?
-        .execute(params![track, url])?;
-    Ok(())
+    let sql = "UPDATE track SET media_url = ?2 WHERE id = ?1 AND kind = 'media'";
+    connection.change_rows(sql, params![track, url])
 }
 
 /// Removes a media track.
 pub(crate) fn remove_media_track(connection: &Connection, track: i64) -> CorpusResult<()> {
-    connection
-        .prepare_cached("DELETE FROM track WHERE id = ?1 AND kind = 'media'")?
-        .execute([track])?;
-    Ok(())
+    connection.change_rows("DELETE FROM track WHERE id = ?1 AND kind = 'media'", [track])
 }
 
 /// Returns the media tracks of a recording.
@@ -594,15 +524,11 @@ pub(crate) fn set_recording_description(
     origin: Option<RecordOrigin>,
     licence: Option<&str>,
 ) -> CorpusResult<()> {
-    connection
-        .prepare_cached(
-            "UPDATE recording SET signer_id = coalesce(?2, signer_id), origin = coalesce(?3, origin),
+    let sql = "UPDATE recording SET signer_id = coalesce(?2, signer_id), origin = coalesce(?3, origin),
                  licence = coalesce(?4, licence)
              WHERE id = ?1 AND (signer_id IS NOT coalesce(?2, signer_id)
-                 OR origin <> coalesce(?3, origin) OR licence IS NOT coalesce(?4, licence))",
-        )?
-        .execute(params![recording, signer, origin.map(NamedColumn), licence])?;
-    Ok(())
+                 OR origin <> coalesce(?3, origin) OR licence IS NOT coalesce(?4, licence))";
+    connection.change_rows(sql, params![recording, signer, origin.map(NamedColumn), licence])
 }
 
 /// Sets the actual order of the root's columns of a track, and the factor for their unit.
@@ -612,30 +538,25 @@ pub(crate) fn set_root(
     order: Option<&str>,
     scale: Option<f64>,
 ) -> CorpusResult<()> {
-    connection
-        .prepare_cached("UPDATE track SET root_order = ?2, root_scale = ?3 WHERE id = ?1")?
-        .execute(params![track, order, scale])?;
-    Ok(())
+    let sql = "UPDATE track SET root_order = ?2, root_scale = ?3 WHERE id = ?1";
+    connection.change_rows(sql, params![track, order, scale])
 }
 
 /// Writes again how a motion track's numbers are read: unit, axes, root, joint roles and channel groups.
 pub(crate) fn update_reading(connection: &Connection, row: &MotionTrackRow) -> CorpusResult<()> {
-    connection
-        .prepare_cached(
-            "UPDATE track SET metres_per_unit = ?2, axes = ?3, root_order = ?4, root_scale = ?5, roles = ?6,
+    let sql = "UPDATE track SET metres_per_unit = ?2, axes = ?3, root_order = ?4, root_scale = ?5, roles = ?6,
                  channel_groups = ?7
-             WHERE id = ?1",
-        )?
-        .execute(params![
-            row.id,
-            row.metres_per_unit,
-            row.axes,
-            row.root_order,
-            row.root_scale,
-            row.roles,
-            row.channel_groups
-        ])?;
-    Ok(())
+             WHERE id = ?1";
+    let values = params![
+        row.id,
+        row.metres_per_unit,
+        row.axes,
+        row.root_order,
+        row.root_scale,
+        row.roles,
+        row.channel_groups
+    ];
+    connection.change_rows(sql, values)
 }
 
 /// Returns `name`, or the first of `name (2)`, `name (3)` … that no recording has.

@@ -7,31 +7,25 @@ pub(crate) mod search_terms;
 use rusqlite::{Connection, Transaction, TransactionBehavior, params};
 
 use super::seals;
+use crate::db::cached_sql::CachedSql;
 use crate::error::{CorpusError, CorpusResult};
 
 pub(crate) use documents::{TokenDocument, visit_token_documents};
 
 /// Returns the tokens that the running operation touched.
 pub(crate) fn list_touched_tokens(connection: &Connection) -> CorpusResult<Vec<i64>> {
-    let mut statement = connection.prepare_cached("SELECT token_id FROM temp.touched ORDER BY token_id")?;
-    let tokens = statement
-        .query_map([], |row| row.get(0))?
-        .collect::<rusqlite::Result<_>>()?;
-    Ok(tokens)
+    connection.read_values("SELECT token_id FROM temp.touched ORDER BY token_id", [])
 }
 
 /// Returns the number of row changes of the running operation that the schema's counter has counted.
 pub(crate) fn count_token_touches(connection: &Connection) -> CorpusResult<i64> {
     // These are the changes that the triggers of the schema count, which a change of either must keep equal.
-    let count = connection
-        .prepare_cached(
-            "SELECT count(*) FROM temp.change
+    let sql = "SELECT count(*) FROM temp.change
              WHERE tbl IN ('token', 'token_value', 'sign_text', 'annotation')
                 OR (kind = 'u' AND tbl IN ('sign', 'tier', 'recording', 'signer', 'lexicon'))
                 OR (kind <> 'u' AND tbl = 'source_file'
-                    AND coalesce(after, before) ->> '$.recording_id' IS NOT NULL)",
-        )?
-        .query_row([], |row| row.get(0))?;
+                    AND coalesce(after, before) ->> '$.recording_id' IS NOT NULL)";
+    let count = connection.read_value(sql, [])?;
     Ok(count)
 }
 
@@ -44,15 +38,14 @@ pub(crate) struct SearchIndexState {
 
 impl SearchIndexState {
     pub(crate) fn read_index_state(connection: &Connection) -> CorpusResult<Self> {
-        Ok(connection
-            .prepare_cached("SELECT content, indexed, format FROM search_state WHERE id = 1")?
-            .query_row([], |row| {
-                Ok(Self {
-                    content: row.get(0)?,
-                    indexed: row.get(1)?,
-                    format: row.get(2)?,
-                })
-            })?)
+        let sql = "SELECT content, indexed, format FROM search_state WHERE id = 1";
+        connection.read_row(sql, [], |row| {
+            Ok(Self {
+                content: row.get(0)?,
+                indexed: row.get(1)?,
+                format: row.get(2)?,
+            })
+        })
     }
 
     /// Records that an index of `format` includes the first `indexed` changes.
@@ -78,11 +71,7 @@ pub(crate) fn begin_reading(connection: &Connection) -> CorpusResult<Transaction
 /// Returns the names of the index's files.
 pub(crate) fn file_names(connection: &Connection) -> CorpusResult<Vec<String>> {
     // Performances of faces lie beside the index's files, and are no part of it.
-    let mut statement = connection.prepare_cached("SELECT path FROM search_file WHERE path NOT LIKE 'faces/%'")?;
-    let names = statement
-        .query_map([], |row| row.get(0))?
-        .collect::<rusqlite::Result<_>>()?;
-    Ok(names)
+    connection.read_values("SELECT path FROM search_file WHERE path NOT LIKE 'faces/%'", [])
 }
 
 /// Returns a file of the index as it was stored.
@@ -90,9 +79,8 @@ pub(crate) fn file_names(connection: &Connection) -> CorpusResult<Vec<String>> {
 /// # Errors
 /// [`Error::Index`] if its bytes do not match their checksum.
 pub(crate) fn read_index_file(connection: &Connection, path: &str) -> CorpusResult<Vec<u8>> {
-    let (data, checksum): (Vec<u8>, u32) = connection
-        .prepare_cached("SELECT data, checksum FROM search_file WHERE path = ?1")?
-        .query_row([path], |row| Ok((row.get(0)?, row.get(1)?)))?;
+    let sql = "SELECT data, checksum FROM search_file WHERE path = ?1";
+    let (data, checksum): (Vec<u8>, u32) = connection.read_row(sql, [path], |row| Ok((row.get(0)?, row.get(1)?)))?;
     if crc32fast::hash(&data) != checksum {
         let reason = format!("its file {path:?} is not as it was stored");
         return Err(CorpusError::Index(reason.into()));
@@ -142,21 +130,14 @@ pub(crate) fn damaged_files(connection: &Connection) -> CorpusResult<Vec<String>
 
 /// Writes a file of the index.
 pub(crate) fn write_file(connection: &Connection, path: &str, data: &[u8]) -> CorpusResult<()> {
-    connection
-        .prepare_cached(
-            "INSERT INTO search_file (path, data, checksum) VALUES (?1, ?2, ?3)
-             ON CONFLICT (path) DO UPDATE SET data = excluded.data, checksum = excluded.checksum",
-        )?
-        .execute(params![path, data, crc32fast::hash(data)])?;
-    Ok(())
+    let sql = "INSERT INTO search_file (path, data, checksum) VALUES (?1, ?2, ?3)
+             ON CONFLICT (path) DO UPDATE SET data = excluded.data, checksum = excluded.checksum";
+    connection.change_rows(sql, params![path, data, crc32fast::hash(data)])
 }
 
 /// Deletes a file of the index.
 pub(crate) fn delete_file(connection: &Connection, path: &str) -> CorpusResult<()> {
-    connection
-        .prepare_cached("DELETE FROM search_file WHERE path = ?1")?
-        .execute([path])?;
-    Ok(())
+    connection.change_rows("DELETE FROM search_file WHERE path = ?1", [path])
 }
 
 /// Deletes all files of the index.

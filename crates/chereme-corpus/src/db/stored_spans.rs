@@ -4,6 +4,7 @@ use chereme_sign::tier::AnnotatedHands;
 use rusqlite::{Connection, params};
 
 use super::stored_columns::word_or_null;
+use crate::db::cached_sql::CachedSql;
 use crate::error::CorpusResult;
 
 /// An annotation about the movement of a hand in a captured recording.
@@ -43,8 +44,7 @@ pub(crate) struct AnnotatedTranslation {
 
 /// Returns the translations of the signer of a token that hold for at least half of it, by tier and time.
 pub(crate) fn translations_over_token(connection: &Connection, token: i64) -> CorpusResult<Vec<AnnotatedTranslation>> {
-    let mut statement = connection.prepare_cached(
-        "SELECT ifnull(i.language, ''), a.value,
+    let sql = "SELECT ifnull(i.language, ''), a.value,
                 (SELECT count(*) FROM token o WHERE o.recording_id = t.recording_id AND o.sign_id <> t.sign_id
                    AND o.start_us < a.end_us AND o.end_us > a.start_us)
          FROM token t LEFT JOIN annotation own ON own.id = t.annotation_id LEFT JOIN tier g ON g.id = own.tier_id
@@ -53,16 +53,14 @@ pub(crate) fn translations_over_token(connection: &Connection, token: i64) -> Co
          JOIN annotation a ON a.tier_id = i.id AND a.state = 'value' AND a.value <> ''
          WHERE t.id = ?1
            AND 2 * (min(a.end_us, t.end_us) - max(a.start_us, t.start_us)) >= t.end_us - t.start_us
-         ORDER BY i.position, a.start_us, a.id",
-    )?;
-    let rows = statement.query_map([token], |row| {
+         ORDER BY i.position, a.start_us, a.id";
+    connection.read_rows(sql, [token], |row| {
         Ok(AnnotatedTranslation {
             language: row.get(0)?,
             text: row.get(1)?,
             other_signs: row.get::<_, i64>(2)?.unsigned_abs() as usize,
         })
-    })?;
-    Ok(rows.collect::<rusqlite::Result<_>>()?)
+    })
 }
 
 /// Returns up to `most` annotated movements with their size, manner and phases, in captured recordings,
@@ -71,28 +69,23 @@ pub(crate) fn translations_over_token(connection: &Connection, token: i64) -> Co
 /// Annotations by the program itself (a detector, a recipe) are left out.
 pub(crate) fn movement_spans(connection: &Connection, most: usize) -> CorpusResult<Vec<MovementSpan>> {
     // The program's own findings must not become the measure by which it is tuned.
-    let mut statement = connection.prepare_cached(
-        "SELECT t.recording_id, t.hand, t.feature, a.start_us, a.end_us, a.value, t.inventory_id
+    let sql = "SELECT t.recording_id, t.hand, t.feature, a.start_us, a.end_us, a.value, t.inventory_id
          FROM tier t JOIN recording r ON r.id = t.recording_id JOIN annotation a ON a.tier_id = t.id
          WHERE t.component = 'movement' AND r.origin = 'captured' AND a.state = 'value'
            AND (t.feature IS NULL OR t.feature IN ('size', 'manner', 'phase'))
            AND a.origin IN ('file', 'human')
-         ORDER BY t.recording_id, a.start_us, t.position, a.id LIMIT ?1",
-    )?;
-    let rows = statement
-        .query_map([i64::try_from(most).unwrap_or(i64::MAX)], |row| {
-            Ok(MovementSpan {
-                recording_id: row.get(0)?,
-                hand: word_or_null(row, 1)?,
-                feature: row.get(2)?,
-                start_us: row.get(3)?,
-                end_us: row.get(4)?,
-                value: row.get(5)?,
-                inventory_id: row.get(6)?,
-            })
-        })?
-        .collect::<rusqlite::Result<_>>()?;
-    Ok(rows)
+         ORDER BY t.recording_id, a.start_us, t.position, a.id LIMIT ?1";
+    connection.read_rows(sql, [i64::try_from(most).unwrap_or(i64::MAX)], |row| {
+        Ok(MovementSpan {
+            recording_id: row.get(0)?,
+            hand: word_or_null(row, 1)?,
+            feature: row.get(2)?,
+            start_us: row.get(3)?,
+            end_us: row.get(4)?,
+            value: row.get(5)?,
+            inventory_id: row.get(6)?,
+        })
+    })
 }
 
 /// Returns up to `most` values of movement that lexicon entries state for captured tokens of the same sign that have no

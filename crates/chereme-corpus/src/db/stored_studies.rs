@@ -1,10 +1,11 @@
 //! Rows of perceptual studies, their participants and answers.
 
-use rusqlite::{Connection, OptionalExtension, params};
+use rusqlite::{Connection, params};
 use sha2::{Digest as _, Sha256};
 
 use super::damaged_row_error;
 use super::stored_motion::to_hex_text;
+use crate::db::cached_sql::CachedSql;
 use crate::error::CorpusResult;
 
 /// A study as stored.
@@ -55,24 +56,20 @@ pub(crate) struct StudyAnswerRow {
 
 /// Returns the names of all studies.
 pub(crate) fn list_study_names(connection: &Connection) -> CorpusResult<Vec<String>> {
-    let mut statement = connection.prepare_cached("SELECT name FROM study ORDER BY name")?;
-    let names = statement.query_map([], |row| row.get(0))?;
-    Ok(names.collect::<rusqlite::Result<_>>()?)
+    connection.read_values("SELECT name FROM study ORDER BY name", [])
 }
 
 /// Returns the row number of the study of that name, and the study.
 pub(crate) fn find_study_row(connection: &Connection, name: &str) -> CorpusResult<Option<(i64, StudyRow)>> {
-    let study_row = connection
-        .prepare_cached("SELECT id, name, plan, plan_sha256 FROM study WHERE name = ?1")?
-        .query_row([name], |row| {
-            let it = StudyRow {
-                name: row.get(1)?,
-                plan: row.get(2)?,
-                plan_sha256: row.get(3)?,
-            };
-            Ok((row.get(0)?, it))
-        })
-        .optional()?;
+    let sql = "SELECT id, name, plan, plan_sha256 FROM study WHERE name = ?1";
+    let study_row = connection.find_row(sql, [name], |row| {
+        let it = StudyRow {
+            name: row.get(1)?,
+            plan: row.get(2)?,
+            plan_sha256: row.get(3)?,
+        };
+        Ok((row.get(0)?, it))
+    })?;
     // A plan that was changed afterwards no longer describes what participants answered to.
     match study_row {
         Some((_, study)) if !study.is_whole() => Err(damaged_row_error(
@@ -85,10 +82,8 @@ pub(crate) fn find_study_row(connection: &Connection, name: &str) -> CorpusResul
 
 /// Returns the row number of a study with that plan.
 pub(crate) fn with_plan(connection: &Connection, sha256: &str) -> CorpusResult<Option<i64>> {
-    let study_id = connection
-        .prepare_cached("SELECT id FROM study WHERE plan_sha256 = ?1 ORDER BY id LIMIT 1")?
-        .query_row([sha256], |row| row.get(0))
-        .optional()?;
+    let sql = "SELECT id FROM study WHERE plan_sha256 = ?1 ORDER BY id LIMIT 1";
+    let study_id = connection.find_value(sql, [sha256])?;
     Ok(study_id)
 }
 
@@ -116,18 +111,14 @@ pub(crate) fn free_code(connection: &Connection, study: i64, code: &str) -> Corp
 
 /// Adds a study, and returns its row number.
 pub(crate) fn insert_study_row(connection: &Connection, it: &StudyRow) -> CorpusResult<i64> {
-    connection
-        .prepare_cached("INSERT INTO study (name, plan, plan_sha256) VALUES (?1, ?2, ?3)")?
-        .execute(params![it.name, it.plan, it.plan_sha256])?;
-    Ok(connection.last_insert_rowid())
+    let sql = "INSERT INTO study (name, plan, plan_sha256) VALUES (?1, ?2, ?3)";
+    connection.insert_row(sql, params![it.name, it.plan, it.plan_sha256])
 }
 
 /// Replaces the plan of a study.
 pub(crate) fn replace_study_plan(connection: &Connection, id: i64, it: &StudyRow) -> CorpusResult<()> {
-    connection
-        .prepare_cached("UPDATE study SET plan = ?2, plan_sha256 = ?3 WHERE id = ?1")?
-        .execute(params![id, it.plan, it.plan_sha256])?;
-    Ok(())
+    let sql = "UPDATE study SET plan = ?2, plan_sha256 = ?3 WHERE id = ?1";
+    connection.change_rows(sql, params![id, it.plan, it.plan_sha256])
 }
 
 /// Removes a study with its participants and their answers.
@@ -138,29 +129,24 @@ pub(crate) fn delete_study_row(connection: &Connection, id: i64) -> CorpusResult
         "DELETE FROM study_participant WHERE study_id = ?1",
         "DELETE FROM study WHERE id = ?1",
     ] {
-        connection.prepare_cached(sql)?.execute([id])?;
+        connection.change_rows(sql, [id])?;
     }
     Ok(())
 }
 
 /// Returns how many participants a study has.
 pub(crate) fn participant_count(connection: &Connection, study: i64) -> CorpusResult<u64> {
-    let count: i64 = connection
-        .prepare_cached("SELECT count(*) FROM study_participant WHERE study_id = ?1")?
-        .query_row([study], |row| row.get(0))?;
+    let count: i64 = connection.read_value("SELECT count(*) FROM study_participant WHERE study_id = ?1", [study])?;
     Ok(u64::try_from(count).unwrap_or_default())
 }
 
 /// Returns how many participants a study has, how many of them finished, and the number of all answers.
 pub(crate) fn count_study_participants(connection: &Connection, study: i64) -> CorpusResult<[u64; 3]> {
-    let counts: [i64; 3] = connection
-        .prepare_cached(
-            "SELECT count(*), coalesce(sum(finished), 0),
+    let sql = "SELECT count(*), coalesce(sum(finished), 0),
                  (SELECT count(*) FROM study_answer WHERE participant_id IN
                      (SELECT id FROM study_participant WHERE study_id = ?1))
-             FROM study_participant WHERE study_id = ?1",
-        )?
-        .query_row([study], |row| Ok([row.get(0)?, row.get(1)?, row.get(2)?]))?;
+             FROM study_participant WHERE study_id = ?1";
+    let counts: [i64; 3] = connection.read_row(sql, [study], |row| Ok([row.get(0)?, row.get(1)?, row.get(2)?]))?;
     Ok(counts.map(|value| u64::try_from(value).unwrap_or_default()))
 }
 
@@ -170,11 +156,9 @@ pub(crate) fn load_study_participants(
     study: i64,
     code: Option<&str>,
 ) -> CorpusResult<Vec<(i64, ParticipantRow)>> {
-    let mut statement = connection.prepare_cached(
-        "SELECT id, code, started_day, language, seed, finished, profile, consent, device
-         FROM study_participant WHERE study_id = ?1 AND (?2 IS NULL OR code = ?2) ORDER BY code",
-    )?;
-    let rows = statement.query_map(params![study, code], |row| {
+    let sql = "SELECT id, code, started_day, language, seed, finished, profile, consent, device
+         FROM study_participant WHERE study_id = ?1 AND (?2 IS NULL OR code = ?2) ORDER BY code";
+    connection.read_rows(sql, params![study, code], |row| {
         let it = ParticipantRow {
             code: row.get(1)?,
             started_day: row.get(2)?,
@@ -186,18 +170,15 @@ pub(crate) fn load_study_participants(
             device: row.get(8)?,
         };
         Ok((row.get(0)?, it))
-    })?;
-    Ok(rows.collect::<rusqlite::Result<_>>()?)
+    })
 }
 
 /// Returns the answers of a participant, in the order in which they were given.
 pub(crate) fn load_participant_answers(connection: &Connection, participant: i64) -> CorpusResult<Vec<StudyAnswerRow>> {
-    let mut statement = connection.prepare_cached(
-        "SELECT n, block, part, item, condition, role, question, low, high, value, choice, right,
+    let sql = "SELECT n, block, part, item, condition, role, question, low, high, value, choice, right,
              plays, ms, hidden, slow
-         FROM study_answer WHERE participant_id = ?1 ORDER BY id",
-    )?;
-    let rows = statement.query_map([participant], |row| {
+         FROM study_answer WHERE participant_id = ?1 ORDER BY id";
+    connection.read_rows(sql, [participant], |row| {
         Ok(StudyAnswerRow {
             n: row.get(0)?,
             block: row.get(1)?,
@@ -216,60 +197,53 @@ pub(crate) fn load_participant_answers(connection: &Connection, participant: i64
             hidden: row.get(14)?,
             slow: row.get(15)?,
         })
-    })?;
-    Ok(rows.collect::<rusqlite::Result<_>>()?)
+    })
 }
 
 /// Adds a participant, and returns the row number.
 pub(crate) fn insert_participant(connection: &Connection, study: i64, it: &ParticipantRow) -> CorpusResult<i64> {
-    connection
-        .prepare_cached(
-            "INSERT INTO study_participant
+    let sql = "INSERT INTO study_participant
                  (study_id, code, started_day, language, seed, finished, profile, consent, device)
-             VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9)",
-        )?
-        .execute(params![
-            study,
-            it.code,
-            it.started_day,
-            it.language,
-            it.seed,
-            it.finished,
-            it.profile,
-            it.consent,
-            it.device,
-        ])?;
-    Ok(connection.last_insert_rowid())
+             VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9)";
+    let values = params![
+        study,
+        it.code,
+        it.started_day,
+        it.language,
+        it.seed,
+        it.finished,
+        it.profile,
+        it.consent,
+        it.device,
+    ];
+    connection.insert_row(sql, values)
 }
 
 /// Adds an answer of a participant.
 pub(crate) fn insert_answer(connection: &Connection, participant: i64, it: &StudyAnswerRow) -> CorpusResult<()> {
-    connection
-        .prepare_cached(
-            "INSERT INTO study_answer (participant_id, n, block, part, item, condition, role, question,
+    let sql = "INSERT INTO study_answer (participant_id, n, block, part, item, condition, role, question,
                  low, high, value, choice, right, plays, ms, hidden, slow)
-             VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17)",
-        )?
-        .execute(params![
-            participant,
-            it.n,
-            it.block,
-            it.part,
-            it.item,
-            it.condition,
-            it.role,
-            it.question,
-            it.low,
-            it.high,
-            it.value,
-            it.choice,
-            it.right,
-            it.plays,
-            it.ms,
-            it.hidden,
-            it.slow,
-        ])?;
-    Ok(())
+             VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17)";
+    let values = params![
+        participant,
+        it.n,
+        it.block,
+        it.part,
+        it.item,
+        it.condition,
+        it.role,
+        it.question,
+        it.low,
+        it.high,
+        it.value,
+        it.choice,
+        it.right,
+        it.plays,
+        it.ms,
+        it.hidden,
+        it.slow,
+    ];
+    connection.change_rows(sql, values)
 }
 
 /// Removes a participant with all answers.
@@ -278,7 +252,7 @@ pub(crate) fn delete_participant(connection: &Connection, id: i64) -> CorpusResu
         "DELETE FROM study_answer WHERE participant_id = ?1",
         "DELETE FROM study_participant WHERE id = ?1",
     ] {
-        connection.prepare_cached(sql)?.execute([id])?;
+        connection.change_rows(sql, [id])?;
     }
     Ok(())
 }

@@ -1,16 +1,16 @@
 //! Rows of tiers and annotations.
 
 use chereme_motion::{RecordingInstant, TimeSpan};
-use chereme_sign::ErrorRemedy;
 use chereme_sign::tier::{AnnotatedHands, AnnotationId, Tier, TierAnnotation, TierId, TierSet};
 use chereme_sign::{ComponentReading, SignComponent, TierRole, TierStereotype, TierTopic};
-use rusqlite::{Connection, OptionalExtension, Row, params};
+use rusqlite::{Connection, Row, params};
 use serde::Serialize;
 
 use super::stored_columns::{
     AnnotationOrigin, NamedColumn, ValueState, read_role_columns, read_word_column, role_parts, serialize_role,
     word_or_null,
 };
+use crate::db::cached_sql::CachedSql;
 use crate::error::{CorpusError, CorpusResult};
 
 /// The longest value of an annotation and the longest gloss, in bytes.
@@ -205,90 +205,64 @@ fn annotation_row(row: &Row<'_>) -> rusqlite::Result<AnnotationRow> {
 
 /// Writes a tier and returns its row; its `id` is not used.
 pub(crate) fn insert_tier(connection: &Connection, row: &TierRow) -> CorpusResult<i64> {
-    let (role, component, feature) = role_parts(&row.role);
-    connection
-        .prepare_cached(
-            "INSERT INTO tier (recording_id, name, position, parent_id, stereotype, role, component,
+    let sql = "INSERT INTO tier (recording_id, name, position, parent_id, stereotype, role, component,
                  feature, hand, participant, annotator, language, inventory_id, source)
-             VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14)",
-        )?
-        .execute(params![
-            row.recording_id,
-            row.name,
-            row.position,
-            row.parent_id,
-            row.stereotype.map(NamedColumn),
-            role,
-            component,
-            feature,
-            row.hand.map(NamedColumn),
-            row.participant,
-            row.annotator,
-            row.language,
-            row.inventory_id,
-            row.source
-        ])?;
+             VALUES (?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15)";
+    write_tier(connection, sql, row)?;
     Ok(connection.last_insert_rowid())
 }
 
 /// Writes a tier's row again.
 pub(crate) fn update_tier(connection: &Connection, row: &TierRow) -> CorpusResult<()> {
+    let sql = "UPDATE tier SET name = ?3, position = ?4, parent_id = ?5, stereotype = ?6, role = ?7,
+                 component = ?8, feature = ?9, hand = ?10, participant = ?11, annotator = ?12,
+                 language = ?13, inventory_id = ?14, source = ?15 WHERE id = ?1";
+    write_tier(connection, sql, row)
+}
+
+/// Runs a statement with the columns of a tier in their order as parameters.
+fn write_tier(connection: &Connection, sql: &str, row: &TierRow) -> CorpusResult<()> {
     let (role, component, feature) = role_parts(&row.role);
-    connection
-        .prepare_cached(
-            "UPDATE tier SET name = ?2, position = ?3, parent_id = ?4, stereotype = ?5, role = ?6,
-                 component = ?7, feature = ?8, hand = ?9, participant = ?10, annotator = ?11,
-                 language = ?12, inventory_id = ?13, source = ?14 WHERE id = ?1",
-        )?
-        .execute(params![
-            row.id,
-            row.name,
-            row.position,
-            row.parent_id,
-            row.stereotype.map(NamedColumn),
-            role,
-            component,
-            feature,
-            row.hand.map(NamedColumn),
-            row.participant,
-            row.annotator,
-            row.language,
-            row.inventory_id,
-            row.source
-        ])?;
-    Ok(())
+    let values = params![
+        row.id,
+        row.recording_id,
+        row.name,
+        row.position,
+        row.parent_id,
+        row.stereotype.map(NamedColumn),
+        role,
+        component,
+        feature,
+        row.hand.map(NamedColumn),
+        row.participant,
+        row.annotator,
+        row.language,
+        row.inventory_id,
+        row.source
+    ];
+    connection.change_rows(sql, values)
 }
 
 /// Deletes a tier that has no annotations any more.
 pub(crate) fn delete_tier(connection: &Connection, id: i64) -> CorpusResult<()> {
-    connection
-        .prepare_cached("DELETE FROM tier WHERE id = ?1")?
-        .execute([id])?;
-    Ok(())
+    connection.change_rows("DELETE FROM tier WHERE id = ?1", [id])
 }
 
 /// Returns the tier of that row.
 pub(crate) fn load_tier_row(connection: &Connection, id: i64) -> CorpusResult<TierRow> {
     connection
-        .prepare_cached(&format!("{SELECT_TIER_SQL} WHERE id = ?1"))?
-        .query_row([id], tier_row)
-        .optional()?
+        .find_row(&format!("{SELECT_TIER_SQL} WHERE id = ?1"), [id], tier_row)?
         .ok_or_else(|| {
             CorpusError::from_wrong_message(format!("there is no tier:{id}"))
                 .with_error_place(format!("tier:{id}"))
-                .with_advice(ErrorRemedy::command_remedy("`chereme list CORPUS tiers` lists them"))
+                .with_command_advice("`chereme list CORPUS tiers` lists them")
         })
 }
 
 /// Returns the tiers of a recording in their order.
 pub(crate) fn load_tier_rows(connection: &Connection, recording: i64) -> CorpusResult<Vec<TierRow>> {
-    let mut statement = connection.prepare_cached(&format!(
-        "{SELECT_TIER_SQL} WHERE recording_id = ?1 ORDER BY position, id"
-    ))?;
-    let rows = statement
-        .query_map([recording], tier_row)?
-        .collect::<rusqlite::Result<_>>()?;
-    Ok(rows)
+    let sql = format!("{SELECT_TIER_SQL} WHERE recording_id = ?1 ORDER BY position, id");
+    connection.read_rows(&sql, [recording], tier_row)
 }
 
 /// Returns the recording of a tier; `None` if the tier no longer exists.
@@ -301,39 +275,18 @@ pub(crate) fn find_tier_recording(connection: &Connection, tier: i64) -> CorpusR
 /// Returns one tier for each role and hand among the tiers of a name, except tiers without a role.
 pub(crate) fn roles_named(connection: &Connection, name: &str) -> CorpusResult<Vec<TierRow>> {
     // SQLite fills the other columns from one row of each group, and any of them will do.
-    let mut statement = connection.prepare_cached(&format!(
+    let sql = format!(
         "{SELECT_TIER_SQL} WHERE name = ?1 AND role <> 'free' GROUP BY role, component, feature, hand ORDER BY id"
-    ))?;
-    let rows = statement
-        .query_map([name], tier_row)?
-        .collect::<rusqlite::Result<_>>()?;
-    Ok(rows)
+    );
+    connection.read_rows(&sql, [name], tier_row)
 }
 
 /// Writes an annotation and returns its row; its `id` is not used.
 pub(crate) fn insert_annotation(connection: &Connection, row: &AnnotationRow) -> CorpusResult<i64> {
-    row.check_length()?;
-    connection
-        .prepare_cached(
-            "INSERT INTO annotation (tier_id, start_us, end_us, state, value, parent_id, position,
+    let sql = "INSERT INTO annotation (tier_id, start_us, end_us, state, value, parent_id, position,
                  origin, confidence, external_id, file_start_ms, file_end_ms, source)
-             VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13)",
-        )?
-        .execute(params![
-            row.tier_id,
-            row.start_us,
-            row.end_us,
-            NamedColumn(row.state),
-            row.value,
-            row.parent_id,
-            row.position,
-            NamedColumn(row.origin),
-            row.confidence,
-            row.external_id,
-            row.file_start_ms,
-            row.file_end_ms,
-            row.source
-        ])?;
+             VALUES (?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14)";
+    write_annotation(connection, sql, row)?;
     Ok(connection.last_insert_rowid())
 }
 
@@ -352,52 +305,47 @@ pub(crate) fn check_text(place: impl FnOnce() -> String, text: &str) -> CorpusRe
 
 /// Writes an annotation's row again.
 pub(crate) fn update_annotation(connection: &Connection, row: &AnnotationRow) -> CorpusResult<()> {
-    row.check_length()?;
-    connection
-        .prepare_cached(
-            "UPDATE annotation SET tier_id = ?2, start_us = ?3, end_us = ?4, state = ?5, value = ?6,
+    let sql = "UPDATE annotation SET tier_id = ?2, start_us = ?3, end_us = ?4, state = ?5, value = ?6,
                  parent_id = ?7, position = ?8, origin = ?9, confidence = ?10, external_id = ?11,
-                 file_start_ms = ?12, file_end_ms = ?13, source = ?14 WHERE id = ?1",
-        )?
-        .execute(params![
-            row.id,
-            row.tier_id,
-            row.start_us,
-            row.end_us,
-            NamedColumn(row.state),
-            row.value,
-            row.parent_id,
-            row.position,
-            NamedColumn(row.origin),
-            row.confidence,
-            row.external_id,
-            row.file_start_ms,
-            row.file_end_ms,
-            row.source
-        ])?;
-    Ok(())
+                 file_start_ms = ?12, file_end_ms = ?13, source = ?14 WHERE id = ?1";
+    write_annotation(connection, sql, row)
+}
+
+/// Runs a statement with the columns of an annotation in their order as parameters.
+fn write_annotation(connection: &Connection, sql: &str, row: &AnnotationRow) -> CorpusResult<()> {
+    row.check_length()?;
+    let values = params![
+        row.id,
+        row.tier_id,
+        row.start_us,
+        row.end_us,
+        NamedColumn(row.state),
+        row.value,
+        row.parent_id,
+        row.position,
+        NamedColumn(row.origin),
+        row.confidence,
+        row.external_id,
+        row.file_start_ms,
+        row.file_end_ms,
+        row.source
+    ];
+    connection.change_rows(sql, values)
 }
 
 /// Deletes an annotation that no row refers to any more.
 pub(crate) fn delete_annotation(connection: &Connection, id: i64) -> CorpusResult<()> {
-    connection
-        .prepare_cached("DELETE FROM annotation WHERE id = ?1")?
-        .execute([id])?;
-    Ok(())
+    connection.change_rows("DELETE FROM annotation WHERE id = ?1", [id])
 }
 
 /// Returns the annotation of that row.
 pub(crate) fn load_annotation_row(connection: &Connection, id: i64) -> CorpusResult<AnnotationRow> {
     connection
-        .prepare_cached(&format!("{SELECT_ANNOTATION_SQL} WHERE id = ?1"))?
-        .query_row([id], annotation_row)
-        .optional()?
+        .find_row(&format!("{SELECT_ANNOTATION_SQL} WHERE id = ?1"), [id], annotation_row)?
         .ok_or_else(|| {
             CorpusError::from_wrong_message(format!("there is no annotation:{id}"))
                 .with_error_place(format!("annotation:{id}"))
-                .with_advice(ErrorRemedy::command_remedy(
-                    "`chereme list CORPUS annotations` lists them",
-                ))
+                .with_command_advice("`chereme list CORPUS annotations` lists them")
         })
 }
 
@@ -418,24 +366,19 @@ pub(crate) struct ConfigurationSpan {
 
 /// Returns up to `most` annotated handshapes of movement that was not generated by a recipe, by tier and time.
 pub(crate) fn configuration_spans(connection: &Connection, most: usize) -> CorpusResult<Vec<ConfigurationSpan>> {
-    let mut statement = connection.prepare_cached(
-        "SELECT a.tier_id, a.start_us, a.end_us, a.value
+    let sql = "SELECT a.tier_id, a.start_us, a.end_us, a.value
          FROM tier t JOIN recording r ON r.id = t.recording_id JOIN annotation a ON a.tier_id = t.id
          WHERE t.component = 'configuration' AND t.feature IS NULL AND r.origin <> 'made'
            AND a.state = 'value' AND a.origin <> 'detector'
-         ORDER BY a.tier_id, a.start_us, a.id LIMIT ?1",
-    )?;
-    let rows = statement
-        .query_map([i64::try_from(most).unwrap_or(i64::MAX)], |row| {
-            Ok(ConfigurationSpan {
-                tier_id: row.get(0)?,
-                start_us: row.get(1)?,
-                end_us: row.get(2)?,
-                value: row.get(3)?,
-            })
-        })?
-        .collect::<rusqlite::Result<_>>()?;
-    Ok(rows)
+         ORDER BY a.tier_id, a.start_us, a.id LIMIT ?1";
+    connection.read_rows(sql, [i64::try_from(most).unwrap_or(i64::MAX)], |row| {
+        Ok(ConfigurationSpan {
+            tier_id: row.get(0)?,
+            start_us: row.get(1)?,
+            end_us: row.get(2)?,
+            value: row.get(3)?,
+        })
+    })
 }
 
 /// Returns the annotations of a tier that overlap or touch a span, by time.
@@ -469,11 +412,7 @@ fn query_annotation_rows(
     sql: &str,
     params: impl rusqlite::Params,
 ) -> CorpusResult<Vec<AnnotationRow>> {
-    let mut statement = connection.prepare_cached(sql)?;
-    let rows = statement
-        .query_map(params, annotation_row)?
-        .collect::<rusqlite::Result<_>>()?;
-    Ok(rows)
+    connection.read_rows(sql, params, annotation_row)
 }
 
 /// Returns the tiers of a recording with all their annotations, for a check of the tier rules.

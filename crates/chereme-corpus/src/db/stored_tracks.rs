@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 use std::str::FromStr;
 
 use chereme_motion::{FrameRate, RecordingInstant, TimeSpan};
-use chereme_sign::ErrorRemedy;
-use rusqlite::{Connection, OptionalExtension, Row, params};
+use rusqlite::{Connection, Row, params};
 use serde::Serialize;
 
 use super::damaged_row_error;
+use crate::db::cached_sql::CachedSql;
 use crate::error::{CorpusError, CorpusResult};
 
 /// The kind of a track.
@@ -148,71 +148,59 @@ fn track_row(row: &Row<'_>) -> rusqlite::Result<CorpusResult<TrackRow>> {
 /// Returns the tracks of a recording, oldest first.
 pub(crate) fn load_track_rows(connection: &Connection, recording: i64) -> CorpusResult<Vec<TrackRow>> {
     let sql = format!("{SELECT_TRACK_SQL} WHERE t.recording_id = ?1 ORDER BY t.id");
-    let mut statement = connection.prepare_cached(&sql)?;
-    let rows = statement
-        .query_map([recording], track_row)?
-        .collect::<rusqlite::Result<Vec<_>>>()?;
+    let rows: Vec<_> = connection.read_rows(&sql, [recording], track_row)?;
     rows.into_iter().collect()
 }
 
 /// Returns all tracks that hold numbers, by recording.
 pub(crate) fn all_moving(connection: &Connection) -> CorpusResult<Vec<TrackRow>> {
     let sql = format!("{SELECT_TRACK_SQL} WHERE t.kind <> 'media' ORDER BY t.recording_id, t.id");
-    let mut statement = connection.prepare_cached(&sql)?;
-    let rows = statement
-        .query_map([], track_row)?
-        .collect::<rusqlite::Result<Vec<_>>>()?;
+    let rows: Vec<_> = connection.read_rows(&sql, [], track_row)?;
     rows.into_iter().collect()
 }
 
 /// Returns the track of that row.
 pub(crate) fn load_track_row(connection: &Connection, id: i64) -> CorpusResult<TrackRow> {
-    let stored_track = connection
-        .prepare_cached(&format!("{SELECT_TRACK_SQL} WHERE t.id = ?1"))?
-        .query_row([id], track_row)
-        .optional()?;
+    let stored_track = connection.find_row(&format!("{SELECT_TRACK_SQL} WHERE t.id = ?1"), [id], track_row)?;
     stored_track.unwrap_or_else(|| {
         Err(CorpusError::from_wrong_message(format!("there is no track {id}"))
             .with_error_place(format!("track {id}"))
-            .with_advice(ErrorRemedy::command_remedy("`chereme list CORPUS tracks` lists them")))
+            .with_command_advice("`chereme list CORPUS tracks` lists them"))
     })
 }
 
 /// Returns the columns of a track that [`TrackRow`] does not include.
 pub(crate) fn load_track_form(connection: &Connection, id: i64) -> CorpusResult<TrackForm> {
     let sql = "SELECT metres_per_unit, axes, layout FROM track WHERE id = ?1";
-    Ok(connection.prepare_cached(sql)?.query_row([id], |row| {
+    connection.read_row(sql, [id], |row| {
         Ok(TrackForm {
             metres_per_unit: row.get(0)?,
             axes: row.get(1)?,
             layout: row.get(2)?,
         })
-    })?)
+    })
 }
 
 /// Writes a track of markers or curves and returns its row; `id` and `channels` are not used.
 pub(crate) fn insert_track_row(connection: &Connection, row: &TrackRow, form: &TrackForm) -> CorpusResult<i64> {
     let frames = row.frames.map(|frames| i64::try_from(frames).unwrap_or(i64::MAX));
-    connection
-        .prepare_cached(
-            "INSERT INTO track (recording_id, kind, name, offset_us, duration_us, frames, rate_frames,
+    let sql = "INSERT INTO track (recording_id, kind, name, offset_us, duration_us, frames, rate_frames,
                  rate_seconds, metres_per_unit, axes, layout)
-             VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11)",
-        )?
-        .execute(params![
-            row.recording_id,
-            row.kind.track_kind_name(),
-            row.name,
-            row.offset_us,
-            row.duration_us,
-            frames,
-            row.rate.map(FrameRate::rate_numerator),
-            row.rate.map(FrameRate::per_seconds),
-            form.metres_per_unit,
-            form.axes,
-            form.layout
-        ])?;
-    Ok(connection.last_insert_rowid())
+             VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11)";
+    let values = params![
+        row.recording_id,
+        row.kind.track_kind_name(),
+        row.name,
+        row.offset_us,
+        row.duration_us,
+        frames,
+        row.rate.map(FrameRate::rate_numerator),
+        row.rate.map(FrameRate::per_seconds),
+        form.metres_per_unit,
+        form.axes,
+        form.layout
+    ];
+    connection.insert_row(sql, values)
 }
 
 /// Writes the channels of a track in their order.
@@ -238,30 +226,23 @@ pub(crate) fn insert_channels(connection: &Connection, track: i64, rows: &[Chann
 
 /// Inserts a row for a group of channels if it is missing; such rows are shared and belong to no operation.
 pub(crate) fn ensure_group(connection: &Connection, name: &str) -> CorpusResult<()> {
-    connection
-        .prepare_cached("INSERT OR IGNORE INTO channel_group (name, note) VALUES (?1, ?2)")?
-        .execute([name, "channels of one part of a file"])?;
-    Ok(())
+    let sql = "INSERT OR IGNORE INTO channel_group (name, note) VALUES (?1, ?2)";
+    connection.change_rows(sql, [name, "channels of one part of a file"])
 }
 
 /// Returns the channels of a track in their order.
 pub(crate) fn load_channel_rows(connection: &Connection, track: i64) -> CorpusResult<Vec<ChannelRow>> {
-    let mut statement = connection.prepare_cached(
-        "SELECT channel_group, part, name, unit, columns FROM channel
-         WHERE track_id = ?1 ORDER BY position",
-    )?;
-    let rows = statement
-        .query_map([track], |row| {
-            Ok(ChannelRow {
-                group: row.get(0)?,
-                part: row.get(1)?,
-                name: row.get(2)?,
-                unit: row.get(3)?,
-                columns: usize::try_from(row.get::<_, i64>(4)?).unwrap_or_default(),
-            })
-        })?
-        .collect::<rusqlite::Result<_>>()?;
-    Ok(rows)
+    let sql = "SELECT channel_group, part, name, unit, columns FROM channel
+         WHERE track_id = ?1 ORDER BY position";
+    connection.read_rows(sql, [track], |row| {
+        Ok(ChannelRow {
+            group: row.get(0)?,
+            part: row.get(1)?,
+            name: row.get(2)?,
+            unit: row.get(3)?,
+            columns: usize::try_from(row.get::<_, i64>(4)?).unwrap_or_default(),
+        })
+    })
 }
 
 /// Returns the row of the track of a recording that has this kind and name.
@@ -272,10 +253,7 @@ pub(crate) fn find_named_track(
     name: &str,
 ) -> CorpusResult<Option<i64>> {
     let sql = "SELECT id FROM track WHERE recording_id = ?1 AND kind = ?2 AND name = ?3";
-    Ok(connection
-        .prepare_cached(sql)?
-        .query_row(params![recording, kind.track_kind_name(), name], |row| row.get(0))
-        .optional()?)
+    connection.find_value(sql, params![recording, kind.track_kind_name(), name])
 }
 
 /// Returns `name`, or the first of `name 2`, `name 3` … that no track of the recording has.
@@ -293,34 +271,26 @@ pub(crate) fn free_track_name(connection: &Connection, recording: i64, name: &st
 
 /// Moves a track on the recording's clock.
 pub(crate) fn set_offset(connection: &Connection, track: i64, offset_us: i64) -> CorpusResult<()> {
-    connection
-        .prepare_cached("UPDATE track SET offset_us = ?2 WHERE id = ?1 AND offset_us <> ?2")?
-        .execute([track, offset_us])?;
-    Ok(())
+    let sql = "UPDATE track SET offset_us = ?2 WHERE id = ?1 AND offset_us <> ?2";
+    connection.change_rows(sql, [track, offset_us])
 }
 
 /// Sets the length of a track.
 pub(crate) fn set_duration(connection: &Connection, track: i64, duration_us: i64) -> CorpusResult<()> {
-    connection
-        .prepare_cached("UPDATE track SET duration_us = ?2 WHERE id = ?1 AND duration_us IS NOT ?2")?
-        .execute([track, duration_us])?;
-    Ok(())
+    let sql = "UPDATE track SET duration_us = ?2 WHERE id = ?1 AND duration_us IS NOT ?2";
+    connection.change_rows(sql, [track, duration_us])
 }
 
 /// Sets the time of day of a track's own time 0.
 pub(crate) fn set_clock(connection: &Connection, track: i64, clock_us: i64) -> CorpusResult<()> {
-    connection
-        .prepare_cached("UPDATE track SET clock_us = ?2 WHERE id = ?1 AND clock_us IS NOT ?2")?
-        .execute([track, clock_us])?;
-    Ok(())
+    let sql = "UPDATE track SET clock_us = ?2 WHERE id = ?1 AND clock_us IS NOT ?2";
+    connection.change_rows(sql, [track, clock_us])
 }
 
 /// Gives a track another name.
 pub(crate) fn rename_track(connection: &Connection, track: i64, name: &str) -> CorpusResult<()> {
-    connection
-        .prepare_cached("UPDATE track SET name = ?2 WHERE id = ?1 AND name <> ?2")?
-        .execute(params![track, name])?;
-    Ok(())
+    let sql = "UPDATE track SET name = ?2 WHERE id = ?1 AND name <> ?2";
+    connection.change_rows(sql, params![track, name])
 }
 
 /// Removes a track with its channels; the blocks stay.
@@ -330,19 +300,16 @@ pub(crate) fn remove_track(connection: &Connection, track: i64) -> CorpusResult<
         "DELETE FROM channel WHERE track_id = ?1",
         "DELETE FROM track WHERE id = ?1",
     ] {
-        connection.prepare_cached(sql)?.execute([track])?;
+        connection.change_rows(sql, [track])?;
     }
     Ok(())
 }
 
 /// Returns the layouts of tracks of curves with their recording and its signer, oldest first.
 pub(crate) fn layouts_of_curves(connection: &Connection) -> CorpusResult<Vec<(i64, Option<i64>, String)>> {
-    let mut statement = connection.prepare_cached(
-        "SELECT t.recording_id, r.signer_id, t.layout FROM track t JOIN recording r ON r.id = t.recording_id
-         WHERE t.kind = 'curves' AND t.layout IS NOT NULL ORDER BY t.id",
-    )?;
-    let rows = statement.query_map([], |row| Ok((row.get(0)?, row.get(1)?, row.get(2)?)))?;
-    Ok(rows.collect::<rusqlite::Result<_>>()?)
+    let sql = "SELECT t.recording_id, r.signer_id, t.layout FROM track t JOIN recording r ON r.id = t.recording_id
+         WHERE t.kind = 'curves' AND t.layout IS NOT NULL ORDER BY t.id";
+    connection.read_rows(sql, [], |row| Ok((row.get(0)?, row.get(1)?, row.get(2)?)))
 }
 
 /// Returns the recording of a track; `None` if the track no longer exists.
@@ -354,15 +321,11 @@ pub(crate) fn find_track_recording(connection: &Connection, track: i64) -> Corpu
 
 /// Returns the signer of each recording that has one.
 pub(crate) fn signers_of_recordings(connection: &Connection) -> CorpusResult<BTreeMap<i64, i64>> {
-    let mut statement = connection.prepare_cached("SELECT id, signer_id FROM recording WHERE signer_id IS NOT NULL")?;
-    let rows = statement.query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?;
-    Ok(rows.collect::<rusqlite::Result<_>>()?)
+    let sql = "SELECT id, signer_id FROM recording WHERE signer_id IS NOT NULL";
+    connection.read_rows(sql, [], |row| Ok((row.get(0)?, row.get(1)?)))
 }
 
 /// Sets the layout of a skeleton track.
 pub(crate) fn set_layout(connection: &Connection, track: i64, layout: &str) -> CorpusResult<()> {
-    connection
-        .prepare_cached("UPDATE track SET layout = ?2 WHERE id = ?1")?
-        .execute(params![track, layout])?;
-    Ok(())
+    connection.change_rows("UPDATE track SET layout = ?2 WHERE id = ?1", params![track, layout])
 }

@@ -341,6 +341,12 @@ impl<'o> SingleFileFormat<'o> {
     /// Returns the format with the options that change what it writes.
     fn fit_for(self, options: &'o ExportOptions) -> CorpusResult<Self> {
         let movement = &options.movement;
+        if *movement != MovementForm::AS_CAPTURED && !matches!(self, Self::Bvh(_) | Self::Glb(..) | Self::Vrma(_)) {
+            return Err(CorpusError::from_wrong_message(
+                "only movement is written with another skeleton, frame rate or place",
+            )
+            .with_advice("end the name in .bvh, .glb or .vrma, or leave --skeleton, --fps and --in-place out"));
+        }
         match self {
             Self::Table(form) => Ok(Self::Table(TableForm {
                 is_spreadsheet_safe: options.spreadsheet_safe,
@@ -357,10 +363,6 @@ impl<'o> SingleFileFormat<'o> {
             Self::Bvh(_) => Ok(Self::Bvh(movement)),
             Self::Glb(look, _) => Ok(Self::Glb(look, movement)),
             Self::Vrma(_) => Ok(Self::Vrma(movement)),
-            _ if *movement != MovementForm::AS_CAPTURED => Err(CorpusError::from_wrong_message(
-                "only movement is written with another skeleton, frame rate or place",
-            )
-            .with_advice("end the name in .bvh, .glb or .vrma, or leave --skeleton, --fps and --in-place out")),
             other => Ok(other),
         }
     }

@@ -3,6 +3,7 @@
 use rusqlite::Connection;
 use serde_json::Value;
 
+use crate::db::cached_sql::CachedSql;
 use crate::error::CorpusResult;
 
 /// The tables whose rows are recorded, and for each the columns that refer to a row with a uid.
@@ -188,17 +189,14 @@ pub(in crate::db) struct TrackedColumn {
 
 /// Returns the columns of a table in their order.
 pub(in crate::db) fn load_table_columns(connection: &Connection, table: &str) -> CorpusResult<Vec<TrackedColumn>> {
-    let mut statement = connection.prepare_cached("SELECT name, type FROM pragma_table_info(?1) ORDER BY cid")?;
-    let columns = statement
-        .query_map([table], |row| {
-            Ok(TrackedColumn {
-                name: row.get(0)?,
-                blob: row.get::<_, String>(1)? == "BLOB",
-                real: row.get::<_, String>(1)? == "REAL",
-            })
-        })?
-        .collect::<rusqlite::Result<Vec<_>>>()?;
-    Ok(columns)
+    let sql = "SELECT name, type FROM pragma_table_info(?1) ORDER BY cid";
+    connection.read_rows(sql, [table], |row| {
+        Ok(TrackedColumn {
+            name: row.get(0)?,
+            blob: row.get::<_, String>(1)? == "BLOB",
+            real: row.get::<_, String>(1)? == "REAL",
+        })
+    })
 }
 
 /// Returns the SQL expression for a row as JSON.

@@ -10,6 +10,7 @@ use rusqlite::{Connection, OptionalExtension, Row, Rows};
 
 use super::search_answers::{OpinionStanding, TokenOpinion, opinion_of_annotation};
 use super::search_terms::{TokenProperty, hand_codes, opinion_component, phase_code, reading_term, reading_text};
+use crate::db::cached_sql::CachedSql;
 use crate::db::stored_columns::{self, read_word_column, word_or_null};
 use crate::error::CorpusResult;
 
@@ -362,16 +363,15 @@ impl<'c> TokenDocumentReader<'c> {
         if let Some(known) = self.signs.get(&id) {
             return Ok(known.clone());
         }
-        let [gloss, notes, lexicon, language] = self
-            .connection
-            .prepare_cached(
-                "SELECT s.gloss, s.notes, l.name, l.language FROM sign s
+        let [gloss, notes, lexicon, language] = self.connection.read_row(
+            "SELECT s.gloss, s.notes, l.name, l.language FROM sign s
                  LEFT JOIN lexicon l ON l.id = s.lexicon_id WHERE s.id = ?1",
-            )?
-            .query_row([id], |row| {
+            [id],
+            |row| {
                 let column = |at| row.get::<_, Option<String>>(at);
                 Ok([column(0)?, column(1)?, column(2)?, column(3)?])
-            })?;
+            },
+        )?;
         let lexicon = lexicon.map(|name| self.shared_mark_term(TokenProperty::Lexicon, &name));
         let language = language.map(|code| self.shared_mark_term(TokenProperty::Language, &code));
         let mut statement = self
@@ -401,13 +401,11 @@ impl<'c> TokenDocumentReader<'c> {
         if let Some(known) = self.recordings.get(&id) {
             return Ok(known.clone());
         }
+        let sql = "SELECT r.signer_id, g.handedness FROM recording r
+                 LEFT JOIN signer g ON g.id = r.signer_id WHERE r.id = ?1";
         let (signer, handedness) = self
             .connection
-            .prepare_cached(
-                "SELECT r.signer_id, g.handedness FROM recording r
-                 LEFT JOIN signer g ON g.id = r.signer_id WHERE r.id = ?1",
-            )?
-            .query_row([id], |row| Ok((row.get(0)?, row.get::<_, Option<String>>(1)?)))?;
+            .read_row(sql, [id], |row| Ok((row.get(0)?, row.get::<_, Option<String>>(1)?)))?;
         let around = Rc::new(RecordingContext {
             signer,
             left_handed: handedness.as_deref() == Some("left"),
@@ -423,26 +421,21 @@ impl<'c> TokenDocumentReader<'c> {
     }
 
     fn timed_texts(&self, recording: i64, role: &str) -> CorpusResult<Vec<TimedText>> {
-        let mut statement = self.connection.prepare_cached(
-            "SELECT a.start_us, a.end_us, a.value FROM tier i JOIN annotation a ON a.tier_id = i.id
+        let sql = "SELECT a.start_us, a.end_us, a.value FROM tier i JOIN annotation a ON a.tier_id = i.id
              WHERE i.recording_id = ?1 AND i.role = ?2 AND a.state = 'value' AND a.value <> ''
-             ORDER BY a.start_us, i.position, a.id",
-        )?;
-        let rows = statement.query_map((recording, role), |row| {
+             ORDER BY a.start_us, i.position, a.id";
+        self.connection.read_rows(sql, (recording, role), |row| {
             Ok(TimedText {
                 start: row.get(0)?,
                 end: row.get(1)?,
                 text: fold_text(row.get_ref(2)?.as_str().unwrap_or_default()).into(),
             })
-        })?;
-        Ok(rows.collect::<rusqlite::Result<_>>()?)
+        })
     }
 
     fn file_names(&self, recording: i64) -> CorpusResult<Vec<String>> {
         let sql = "SELECT DISTINCT name FROM source_file WHERE recording_id = ?1 ORDER BY name";
-        let mut statement = self.connection.prepare_cached(sql)?;
-        let names = statement.query_map([recording], |row| row.get(0))?;
-        Ok(names.collect::<rusqlite::Result<_>>()?)
+        self.connection.read_values(sql, [recording])
     }
 
     fn shared_tier_name(&mut self, id: i64) -> CorpusResult<Rc<str>> {
@@ -531,11 +524,7 @@ fn load_shared_name(
     if let Some(name) = known.get(&id) {
         return Ok(name.clone());
     }
-    let stored_name: String = connection
-        .prepare_cached(sql)?
-        .query_row([id], |row| row.get(0))
-        .optional()?
-        .unwrap_or_default();
+    let stored_name: String = connection.find_value(sql, [id])?.unwrap_or_default();
     let name: Rc<str> = stored_name.into();
     known.insert(id, name.clone());
     Ok(name)

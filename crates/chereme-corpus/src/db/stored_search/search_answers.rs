@@ -7,6 +7,7 @@ use chereme_sign::{SignComponent, SignPhase, TierRole};
 use rusqlite::{Connection, OptionalExtension, Row};
 use serde::Serialize;
 
+use crate::db::cached_sql::CachedSql;
 use crate::db::people::SIGNER_ATTRIBUTE_PREFIX;
 use crate::db::signs::IS_OPINION_SQL;
 use crate::db::stored_attributes::AttributeRow;
@@ -17,9 +18,7 @@ use crate::error::CorpusResult;
 
 /// Returns two numbers that change whenever any connection changes a row.
 pub(crate) fn database_versions(connection: &Connection) -> CorpusResult<(i64, u64)> {
-    let others = connection
-        .prepare_cached("PRAGMA data_version")?
-        .query_row([], |row| row.get(0))?;
+    let others = connection.read_value("PRAGMA data_version", [])?;
     Ok((others, connection.total_changes()))
 }
 
@@ -47,11 +46,7 @@ pub(crate) fn list_row_names(connection: &Connection, named: NamedRowKind) -> Co
              UNION ALL SELECT id, gloss || '#' || ifnull(homonym, 1) FROM sign ORDER BY 1"
         }
     };
-    let mut statement = connection.prepare_cached(sql)?;
-    let names = statement
-        .query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?
-        .collect::<rusqlite::Result<_>>()?;
-    Ok(names)
+    connection.read_rows(sql, [], |row| Ok((row.get(0)?, row.get(1)?)))
 }
 
 /// Returns the name of a row.
@@ -61,10 +56,7 @@ pub(crate) fn find_row_name(connection: &Connection, named: NamedRowKind, id: i6
         NamedRowKind::Recording => "SELECT name FROM recording WHERE id = ?1",
         NamedRowKind::Sign | NamedRowKind::LexiconEntry => "SELECT gloss FROM sign WHERE id = ?1",
     };
-    Ok(connection
-        .prepare_cached(sql)?
-        .query_row([id], |row| row.get(0))
-        .optional()?)
+    connection.find_value(sql, [id])
 }
 
 /// A token as a search result shows it.
@@ -79,23 +71,19 @@ pub(crate) struct HitRow {
 
 /// Returns the token of that row.
 pub(crate) fn find_hit_row(connection: &Connection, token: i64) -> CorpusResult<Option<HitRow>> {
-    Ok(connection
-        .prepare_cached(
-            "SELECT s.label, r.name, t.start_us, t.end_us, t.origin, l.name
+    let sql = "SELECT s.label, r.name, t.start_us, t.end_us, t.origin, l.name
              FROM token t JOIN sign s ON s.id = t.sign_id LEFT JOIN lexicon l ON l.id = s.lexicon_id
-             LEFT JOIN recording r ON r.id = t.recording_id WHERE t.id = ?1",
-        )?
-        .query_row([token], |row| {
-            Ok(HitRow {
-                gloss: row.get(0)?,
-                recording: row.get(1)?,
-                start_us: row.get(2)?,
-                end_us: row.get(3)?,
-                origin: read_word_column(row, 4)?,
-                lexicon: row.get(5)?,
-            })
+             LEFT JOIN recording r ON r.id = t.recording_id WHERE t.id = ?1";
+    connection.find_row(sql, [token], |row| {
+        Ok(HitRow {
+            gloss: row.get(0)?,
+            recording: row.get(1)?,
+            start_us: row.get(2)?,
+            end_us: row.get(3)?,
+            origin: read_word_column(row, 4)?,
+            lexicon: row.get(5)?,
         })
-        .optional()?)
+    })
 }
 
 /// An annotation or value over a span of a recording or token.
@@ -133,12 +121,10 @@ fn each_coded(
     params: impl rusqlite::Params,
     mut take: impl FnMut(CodedRow<'_>),
 ) -> CorpusResult<()> {
-    let mut statement = connection.prepare_cached(sql)?;
-    let mut rows = statement.query(params)?;
-    while let Some(row) = rows.next()? {
+    connection.visit_rows(sql, params, |row| {
         take(CodedRow::coded_row_from_columns(row)?);
-    }
-    Ok(())
+        Ok(())
+    })
 }
 
 /// Calls `take` with the values of a token that count, in the order in which they were written.
@@ -222,14 +208,10 @@ pub(crate) type ValueAuthor = (Option<String>, Option<f64>);
 /// Returns the annotators of the values of tokens, by annotation.
 #[cfg(feature = "parquet")]
 pub(crate) fn load_value_authors(connection: &Connection, tokens: &[i64]) -> CorpusResult<BTreeMap<i64, ValueAuthor>> {
-    let mut statement = connection.prepare_cached(
-        "SELECT a.id, t.annotator, a.confidence FROM token_value v JOIN annotation a ON a.id = v.annotation_id
-         JOIN tier t ON t.id = a.tier_id WHERE v.token_id IN (SELECT value FROM json_each(?1))",
-    )?;
-    let rows = statement.query_map([crate::db::signs::json_list(tokens)], |row| {
-        Ok((row.get(0)?, (row.get(1)?, row.get(2)?)))
-    })?;
-    Ok(rows.collect::<rusqlite::Result<_>>()?)
+    let sql = "SELECT a.id, t.annotator, a.confidence FROM token_value v JOIN annotation a ON a.id = v.annotation_id
+         JOIN tier t ON t.id = a.tier_id WHERE v.token_id IN (SELECT value FROM json_each(?1))";
+    let tokens = crate::db::signs::json_list(tokens);
+    connection.read_rows(sql, [tokens], |row| Ok((row.get(0)?, (row.get(1)?, row.get(2)?))))
 }
 
 /// Calls `take` with the opinions about a token, each with its field and its annotation.
@@ -242,14 +224,12 @@ pub(crate) fn visit_token_opinions(
         "SELECT NULL, NULL, hand, component, feature, phase, position, state, value, annotation_id
          FROM token_value WHERE token_id = ?1 AND {IS_OPINION_SQL} ORDER BY id"
     );
-    let mut statement = connection.prepare_cached(&sql)?;
-    let mut rows = statement.query([token])?;
-    while let Some(row) = rows.next()? {
+    connection.visit_rows(&sql, [token], |row| {
         if let Some(opinion) = opinion_of_annotation(connection, row.get(9)?)? {
             take(&CodedRow::coded_row_from_columns(row)?, opinion);
         }
-    }
-    Ok(())
+        Ok(())
+    })
 }
 
 /// Returns the tokens of which an annotator says something, whether it counts or not, without proposals of detectors.
@@ -270,10 +250,8 @@ pub(crate) fn tokens_by_annotator(connection: &Connection, is_meant: &dyn Fn(&st
 
 /// Returns the names of the annotators of tiers, each once, by name.
 pub(crate) fn annotator_names(connection: &Connection) -> CorpusResult<Vec<String>> {
-    let mut statement =
-        connection.prepare_cached("SELECT DISTINCT annotator FROM tier WHERE annotator <> '' ORDER BY annotator")?;
-    let names = statement.query_map([], |row| row.get(0))?;
-    Ok(names.collect::<rusqlite::Result<_>>()?)
+    let sql = "SELECT DISTINCT annotator FROM tier WHERE annotator <> '' ORDER BY annotator";
+    connection.read_values(sql, [])
 }
 
 /// Returns the tokens with a value, or an opinion, whose confidence passes.
@@ -357,8 +335,7 @@ pub(crate) fn visit_said_values(
     component: &str,
     mut take: impl FnMut(&SaidValue<'_>) -> CorpusResult<()>,
 ) -> CorpusResult<()> {
-    let mut statement = connection.prepare_cached(
-        "SELECT NULL, NULL, v.hand, v.component, v.feature, v.phase, v.position,
+    let sql = "SELECT NULL, NULL, v.hand, v.component, v.feature, v.phase, v.position,
              iif(v.state = 'unset' AND a.id IS NOT NULL, a.state, v.state),
              iif(v.state = 'unset' AND a.id IS NOT NULL, trim(a.value), v.value),
              v.token_id, v.state = 'unset' AND a.id IS NOT NULL, a.origin = 'detector', n.annotator, a.confidence,
@@ -368,10 +345,8 @@ pub(crate) fn visit_said_values(
          LEFT JOIN annotation b ON b.id = t.annotation_id LEFT JOIN tier i ON i.id = b.tier_id
          LEFT JOIN signer p ON p.name = i.participant
          LEFT JOIN recording r ON r.id = t.recording_id LEFT JOIN signer g ON g.id = r.signer_id
-         WHERE v.component = ?1",
-    )?;
-    let mut rows = statement.query([component])?;
-    while let Some(row) = rows.next()? {
+         WHERE v.component = ?1";
+    connection.visit_rows(sql, [component], |row| {
         let (is_opinion, is_detected): (bool, Option<bool>) = (row.get(10)?, row.get(11)?);
         let standing = match is_detected {
             _ if !is_opinion => None,
@@ -390,8 +365,8 @@ pub(crate) fn visit_said_values(
             confidence: row.get(13)?,
             is_left_handed: row.get::<_, Option<bool>>(14)?.unwrap_or(false),
         })?;
-    }
-    Ok(())
+        Ok(())
+    })
 }
 
 /// The readings of a recording that a relation looks at.
@@ -436,13 +411,9 @@ pub(crate) fn coded_in_recording(
 
 /// Returns whether the signer of a recording is left-handed.
 pub(crate) fn left_handed(connection: &Connection, recording: i64) -> CorpusResult<bool> {
-    let is_left = connection
-        .prepare_cached(
-            "SELECT g.handedness = 'left' FROM recording r JOIN signer g ON g.id = r.signer_id
-             WHERE r.id = ?1",
-        )?
-        .query_row([recording], |row| row.get::<_, Option<bool>>(0))
-        .optional()?;
+    let sql = "SELECT g.handedness = 'left' FROM recording r JOIN signer g ON g.id = r.signer_id
+             WHERE r.id = ?1";
+    let is_left = connection.find_row(sql, [recording], |row| row.get::<_, Option<bool>>(0))?;
     Ok(is_left.flatten().unwrap_or(false))
 }
 
@@ -451,24 +422,15 @@ pub(crate) fn list_recording_tier_roles(
     connection: &Connection,
     recording: i64,
 ) -> CorpusResult<Vec<(i64, String, TierRole)>> {
-    let mut statement = connection.prepare_cached(
-        "SELECT id, name, role, component, feature FROM tier WHERE recording_id = ?1 ORDER BY position, id",
-    )?;
-    let tiers = statement
-        .query_map([recording], |row| {
-            Ok((row.get(0)?, row.get(1)?, read_role_columns(row, 2)?))
-        })?
-        .collect::<rusqlite::Result<_>>()?;
-    Ok(tiers)
+    let sql = "SELECT id, name, role, component, feature FROM tier WHERE recording_id = ?1 ORDER BY position, id";
+    connection.read_rows(sql, [recording], |row| {
+        Ok((row.get(0)?, row.get(1)?, read_role_columns(row, 2)?))
+    })
 }
 
 /// Returns the names of all tiers, each once, by name.
 pub(crate) fn tier_names(connection: &Connection) -> CorpusResult<Vec<String>> {
-    let mut statement = connection.prepare_cached("SELECT DISTINCT name FROM tier ORDER BY name")?;
-    let names = statement
-        .query_map([], |row| row.get(0))?
-        .collect::<rusqlite::Result<_>>()?;
-    Ok(names)
+    connection.read_values("SELECT DISTINCT name FROM tier ORDER BY name", [])
 }
 
 /// Calls `take` with the annotations of a tier.
