@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::{self, Display, Formatter};
 use std::sync::Arc;
 
-use chereme_motion::{BodyPart, BodySide, RecordingInstant, TimeSpan};
+use chereme_motion::{BodySide, RecordingInstant, TimeSpan};
 use chereme_sign::hamnosys::{BodyLanguage, NonmanualAct, NonmanualPart, NotatedSign, TierKind};
 use chereme_sign::words::InterfaceText;
 use chereme_sign::{ComponentReading, SignComponent, SignerHandedness};
@@ -31,7 +31,7 @@ use crate::outcome::{GeneratedCurve, GeneratedNote, NoteSubject};
 use crate::recipe_inputs::MaterialInput;
 use crate::sources::MaterialSigner;
 use crate::text::{ParsedText, QuotedName, RecipeParser, quote_recipe_text, write_option};
-use crate::work::{JointGroup, WorkingClip};
+use crate::work::{JointGroup, WorkingClip, find_joint_groups};
 
 /// Settings of `face brows=raised eyes=squint*0.5 over 0.2s..0.9s`, `face from BOL` and `mouth "bOl"`: values of parts of
 /// the face, and another sign's face.
@@ -242,7 +242,9 @@ fn is_note_of(note: &GeneratedNote, is_meant: impl Fn(&str) -> bool) -> bool {
 
 /// Moves the head by an act of notation over a span of time, in addition to its own movement.
 fn move_head(work: &mut WorkingClip, code: &str, amount: f64, span: TimeSpan) -> Result<(), StepError> {
-    work.anatomy.part_joint(BodyPart::Head).ok_or(StepError::NoHead)?;
+    let groups = find_joint_groups(&work.skeleton, &work.anatomy);
+    let head: Vec<usize> = (0..groups.len()).filter(|&j| groups[j] == JointGroup::Head).collect();
+    head.first().ok_or(StepError::NoHead)?;
     let (skeleton, anatomy) = (Arc::clone(&work.skeleton), Arc::clone(&work.anatomy));
     let body = StandingBody::body_in_posture(skeleton, anatomy, work.local_pose_at(0)).ok_or(StepError::NoHead)?;
     let mut act = NonmanualAct::new(NonmanualPart::Head, code);
@@ -250,10 +252,14 @@ fn move_head(work: &mut WorkingClip, code: &str, amount: f64, span: TimeSpan) ->
     let mut sign = NotatedSign::default();
     sign.nonmanual.push_act_group(TierKind::Head, vec![act]);
     let [from, to] = [span.span_start_instant(), span.span_end_instant()].map(RecordingInstant::instant_seconds);
-    let gloss = String::new();
     let (language, rate) = (BodyLanguage::default_body_language(), work.rate.per_second());
+    let (gloss, mut channels) = (String::new(), work.channels.clone());
     let (bends, _) = written_body_bends(&[&sign], &[SignSpan { gloss, from, to }], language, rate, work.frames);
     let frames: Vec<(usize, f64)> = (0..work.frames).map(|frame| (frame, 0.0)).collect();
-    turn_body_joints(&body, &bends, &frames, &mut work.channels);
+    turn_body_joints(&body, &bends, &frames, &mut channels);
+    // The animator turns every joint, those of the trunk by nothing but a rounding.
+    for joint in head {
+        work.channels[joint] = channels[joint].clone();
+    }
     Ok(())
 }
