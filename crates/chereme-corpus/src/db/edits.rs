@@ -76,12 +76,12 @@ pub(crate) fn update_signer(connection: &Connection, row: &SignerRow) -> CorpusR
 
 /// Renames a participant on all tiers, and returns their number.
 pub(crate) fn rename_participant(connection: &Connection, old: &str, new: &str) -> CorpusResult<usize> {
-    Ok(connection.count_changes("UPDATE tier SET participant = ?2 WHERE participant = ?1", [old, new])?)
+    connection.count_changes("UPDATE tier SET participant = ?2 WHERE participant = ?1", [old, new])
 }
 
 /// Renames an annotator on all tiers, and returns their number.
 pub(crate) fn rename_annotator(connection: &Connection, old: &str, new: &str) -> CorpusResult<usize> {
-    Ok(connection.count_changes("UPDATE tier SET annotator = ?2 WHERE annotator = ?1", [old, new])?)
+    connection.count_changes("UPDATE tier SET annotator = ?2 WHERE annotator = ?1", [old, new])
 }
 
 /// Returns the recordings with a tier of an annotator.

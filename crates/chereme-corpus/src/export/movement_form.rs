@@ -7,7 +7,6 @@ use chereme_formats::avatar_rig::{AvatarRig, RigError};
 use chereme_motion::anatomy::AssignedJointRoles;
 use chereme_motion::glam::DVec3;
 use chereme_motion::{BodyAnatomy, BodyPart, Clip, FrameRate, Skeleton, SkeletonJoint};
-use chereme_sign::ErrorRemedy;
 use rusqlite::Connection;
 
 use super::foreign::too_far;
@@ -111,9 +110,7 @@ impl MovementForm {
                 .map_err(|error| match error {
                     RigError::TooFar(error) => too_far(&error),
                     RigError::NoPart(_) => CorpusError::from_wrong_message(error.to_string())
-                        .with_advice(ErrorRemedy::command_remedy(
-                            "say which joint is what with `chereme track`, or leave --skeleton out",
-                        ))
+                        .with_command_advice("say which joint is what with `chereme track`, or leave --skeleton out")
                         .into_lacking_content(),
                 })?;
             if !rigged.missing.is_empty() {
