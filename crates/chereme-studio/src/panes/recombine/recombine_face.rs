@@ -9,9 +9,6 @@ use super::recombine_fields::{show_inventory_line, show_number_slider};
 use super::recombine_settings::show_recipe_text_line;
 use crate::context::PaneInput;
 
-/// The sounds that a field for a mouthing shows as a hint.
-const SOUNDS_HINT: &str = "bOl";
-
 /// Shows the parts of a face, each with its value, its picture and the share of it; returns whether the user changed one.
 pub(super) fn show_face_parts(
     ui: &mut Ui,
@@ -31,12 +28,13 @@ pub(super) fn show_face_parts(
         ui.horizontal_wrapped(|ui| {
             ui.weak(name);
             changed |= match part {
-                FacePart::Mouthing => show_recipe_text_line(ui, name, SOUNDS_HINT, &mut value),
+                FacePart::Mouthing => show_recipe_text_line(ui, name, "bOl", &mut value),
                 _ => show_inventory_line(ui, seen, id.with(name), &[inventory], [name, ""], &mut value),
             };
             changed |= !value.is_empty() && show_number_slider(ui, name, &mut share, 0.0..=1.0, "×");
         });
-        let share = (share != 1.0).then(|| format!("*{share}")).unwrap_or_default();
+        let part_share = Some(share).filter(|share| *share != 1.0);
+        let share = part_share.map_or_else(String::new, |share| format!("*{share}"));
         show.extend((!value.is_empty()).then(|| (part, value + &share)));
     }
     changed
