@@ -6,9 +6,9 @@ use chereme_sign::SignComponent;
 use crate::face_parts::FacePart;
 use crate::outcome::{GeneratedCurve, GeneratedMovement, NoteSubject};
 use crate::recipe::Recipe;
-use crate::testing::Shelf;
+use crate::testing::{Shelf, restore_recipe_inputs};
 use crate::work::JointGroup;
-use crate::{RecipeError, StepError, evaluate_recipe, faces_from_curves, resolve_recipe, restore_recipe_inputs};
+use crate::{RecipeError, StepError, evaluate_recipe, faces_from_curves, resolve_recipe};
 
 fn curve(name: &str, values: Vec<f64>) -> GeneratedCurve {
     GeneratedCurve {
