@@ -188,12 +188,15 @@ impl PublishPermissions {
         Ok(permissions)
     }
 
-    /// Makes recordings with equal movement agree: what one of them withholds, the others do.
+    /// Makes recordings with equal movement agree: what one of them withholds, the others do. A sign that was made here
+    /// has its consents from its sources, and withholds nothing from them.
     fn join_equal_movement(&mut self, connection: &Connection) -> CorpusResult<()> {
         for group in kept_movement::equal_movement_groups(connection)? {
+            let is_source = |id: &&i64| (self.recordings.get(*id)).is_some_and(|row| row.origin != RecordOrigin::Made);
+            let sources: Vec<i64> = group.iter().filter(is_source).copied().collect();
             // Annotation is no part of the movement, so equal movement says nothing about it.
             for kind in [ConsentKind::Movement, ConsentKind::Derived] {
-                let all: Vec<StatedAudience> = group.iter().map(|id| self.stated_audience(*id, kind)).collect();
+                let all: Vec<StatedAudience> = sources.iter().map(|id| self.stated_audience(*id, kind)).collect();
                 let least = all.iter().filter_map(|stated| stated.least).min();
                 let is_doubted = all.iter().any(|stated| stated.is_doubted);
                 for id in &group {

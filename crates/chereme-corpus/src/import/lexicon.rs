@@ -9,7 +9,7 @@ use chereme_formats::roles::TierMapping;
 use chereme_formats::table::TableError;
 use chereme_sign::query::NumberSpelling;
 use chereme_sign::text::{compose_accents, fold_text};
-use chereme_sign::{ComponentInventory, ComponentReading, InventoryValue, SignComponent};
+use chereme_sign::{ComponentInventory, ComponentReading, ErrorRemedy, InventoryValue, SignComponent};
 use serde_json::{Map, Value, json};
 
 use super::earlier_entries::EarlierEntries;
@@ -312,7 +312,9 @@ impl LexiconSigns {
             let (name, other) = (&lexicon.name, &job.stem);
             report.findings.push(ReportFinding::finding_warning(
                 format!("there is a lexicon {other:?}, so this one is called {name:?}"),
-                format!("if it is a newer version, undo, and import it with --lexicon {other:?}"),
+                ErrorRemedy::command_remedy(format!(
+                    "if it is a newer version, undo, and import it with --lexicon {other:?}"
+                )),
             ));
         }
         report.understood.lexicon = (!names.is_empty()).then(|| names.join(", "));

@@ -154,13 +154,7 @@ fn a_body_that_a_stored_recipe_does_not_name_is_found_by_its_skeleton() {
         .find(|it| it.contains("configure") || it.contains("near"));
     assert_eq!(lent, None, "a handshape and a place are counted, too");
     agree(&mut corpus, "recording:LIMACE");
-    let withheld: Vec<&str> = FORMS
-        .map(|form| form.0)
-        .into_iter()
-        .filter(|it| !public(&corpus).contains(it))
-        .collect();
-    // It has the movement of LIMACE.
-    assert_eq!(withheld, ["ESCARGOT | configure right from BOL"]);
+    assert_eq!(public(&corpus).len(), FORMS.len());
 }
 
 #[test]

@@ -99,6 +99,13 @@ fn bytes_that_are_equal_are_one_movement() {
     assert!(verdict(&corpus).is_ok());
     refuse(&mut corpus, "recording:bol", &all(ConsentAudience::Nobody));
     assert_eq!(verdict(&corpus), Err(WithheldReason::NotPublic));
+    // Movement that was generated elsewhere has terms of its own, too.
+    let changed = corpus.store.named_operation("origin", |connection| {
+        let sql = "UPDATE recording SET origin = 'generated' WHERE name IN ('bol', 'taken')";
+        Ok((connection.execute(sql, [])?, String::new()))
+    });
+    assert_eq!(changed.expect("changed"), 2);
+    assert_eq!(verdict(&corpus), Err(WithheldReason::NotPublic));
 }
 
 #[test]
