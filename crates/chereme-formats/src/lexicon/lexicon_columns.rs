@@ -394,7 +394,7 @@ fn gloss_columns(columns: &[LexiconColumn], rows: &[TableRow]) -> Vec<usize> {
             let empty = if mapped { 0 } else { 8 - tenths(at).min(8) };
             // In ASL-LEX an entry's id is its gloss; a table with another gloss has ids beside it.
             let is_id = !mapped && is_entry_id(&column.title);
-            (!mapped, is_id, empty, !annotation(&column.title), at)
+            (!mapped, empty, is_id, !annotation(&column.title), at)
         })
         .collect();
     candidates.sort_unstable();
