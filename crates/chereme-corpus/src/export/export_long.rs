@@ -2,7 +2,6 @@
 
 use std::io::Write;
 
-#[cfg(not(feature = "parquet"))]
 use rusqlite::Connection;
 
 use super::ExportWhat;
