@@ -15,6 +15,6 @@ help-command-export-extension-determines-format-bvh-movement-recording = The ext
 help-command-export-for-whom-it-is-written = For whom it is written: what people did not agree to show them is left out and listed
 help-command-export-bones-of-these-avatars = In .bvh and .glb: move the bones of these avatars instead of the captured ones: mixamo, rigify, smplx, ue5, unity, vrm, or a file with a table of bones
 help-command-export-frames-a-second-of-movement = The frames a second of .bvh, .glb and .vrma, such as 30; without it, those of the capture
-help-command-export-keep-hips-in-place = In .bvh, .glb and .vrma: keep the hips above the place where they are first
+help-command-export-keep-hips-in-place = In .bvh, .glb and .vrma: keep the hips above their first place
 help-command-export-copy-history-too = With all and no format: copy the history, too, with everything that was deleted or changed
 help-command-export-everything-written-for-those-who-keep = Everything is written for those who keep the corpus, with a note that names who has not agreed that others see it. With --for research or --for public only what all contributors agreed to (`chereme consent`) is written; what is left out is listed, with the reason. LICENCES.md, provenance.json and the copyright of a .glb hold the terms of all who contributed to a recording, or that it may not be shared. A copy of everything has no history unless --with-history is given, and one for others has no studies or saved searches.

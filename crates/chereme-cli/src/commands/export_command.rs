@@ -71,7 +71,7 @@ pub(crate) struct ExportArgs {
     /// The frames a second of .bvh, .glb and .vrma, such as 30; without it, those of the capture
     #[arg(long, value_name = "N")]
     fps: Option<f64>,
-    /// In .bvh, .glb and .vrma: keep the hips above the place where they are first
+    /// In .bvh, .glb and .vrma: keep the hips above their first place
     #[arg(long)]
     in_place: bool,
     /// With all and no format: copy the history, too, with everything that was deleted or changed

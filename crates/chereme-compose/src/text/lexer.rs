@@ -47,7 +47,11 @@ pub(super) fn lex_recipe_text(text: &str) -> Result<Vec<RecipeTextToken>, TextEr
             ')' => (RecipeTokenKind::Close, ")".into(), byte_offset + 1),
             '"' => {
                 let end = quote_end(text, byte_offset)?;
-                (RecipeTokenKind::Quoted, unquote(&text[byte_offset..end]), end)
+                (
+                    RecipeTokenKind::Quoted,
+                    unquote_recipe_text(&text[byte_offset..end]),
+                    end,
+                )
             }
             _ => lex_recipe_word(text, byte_offset)?,
         };
@@ -115,7 +119,7 @@ fn close_of(text: &str, open: usize) -> Result<usize, TextError> {
     Err(text_fault_at(text, open, RecipeTextProblem::Unclosed('(')))
 }
 
-pub(super) fn unquote(quoted: &str) -> String {
+pub(super) fn unquote_recipe_text(quoted: &str) -> String {
     let mut plain = String::with_capacity(quoted.len());
     let mut chars = quoted[1..quoted.len() - 1].chars();
     while let Some(c) = chars.next() {

@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use super::lexer::{RecipeTextToken, RecipeTokenKind, lex_recipe_text, text_fault_at, unquote};
+use super::lexer::{RecipeTextToken, RecipeTokenKind, lex_recipe_text, text_fault_at, unquote_recipe_text};
 use crate::cue_timing::PhaseRule;
 use crate::error::{RecipeTextProblem, TextError};
 use crate::recipe_settings::*;
@@ -483,7 +483,11 @@ impl<'a> RecipeParser<'a> {
     pub(crate) fn accept_assignment(&mut self) -> Option<(String, String)> {
         let (name, value) = self.current_word()?.split_once('=')?;
         let is_quoted = value.starts_with('"');
-        let value = if is_quoted { unquote(value) } else { value.to_owned() };
+        let value = if is_quoted {
+            unquote_recipe_text(value)
+        } else {
+            value.to_owned()
+        };
         let assignment = (name.to_owned(), value);
         self.at += 1;
         Some(assignment)

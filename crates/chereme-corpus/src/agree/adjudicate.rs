@@ -92,7 +92,7 @@ impl Corpus {
                     });
                     keep_annotation(connection, &third.from, mine, theirs.as_ref())?;
                 }
-                // What is in conflict counts only after a decision, and was not known before.
+                // The tokens were derived before their conflicts were stored, and a conflict counts only after its decision.
                 tokens::update_recording_tokens(connection, third.recording, None, &inventories)?;
             }
             report.recordings = all.iter().map(|recording| recording.name.clone()).collect();

@@ -188,8 +188,8 @@ impl PublishPermissions {
         Ok(permissions)
     }
 
-    /// Makes recordings with equal movement agree: what one of them withholds, the others do. A sign that was made here
-    /// has its consents from its sources, and withholds nothing from them.
+    /// Gives recordings with equal movement the narrowest consent of any of them. A sign that was made here has its
+    /// consents from its sources, and does not narrow theirs.
     fn join_equal_movement(&mut self, connection: &Connection) -> CorpusResult<()> {
         for group in kept_movement::equal_movement_groups(connection)? {
             let is_source = |id: &&i64| (self.recordings.get(*id)).is_some_and(|row| row.origin != RecordOrigin::Made);

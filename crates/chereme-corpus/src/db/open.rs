@@ -514,7 +514,7 @@ mod tests {
 
     #[cfg(target_os = "linux")]
     #[test]
-    fn a_file_that_is_opened_again_and_searched_keeps_the_locks_of_its_connection() {
+    fn a_file_that_is_opened_again_keeps_the_locks_of_its_connection() {
         use std::os::unix::fs::MetadataExt;
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("c.chereme");

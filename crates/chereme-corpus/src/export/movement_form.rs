@@ -18,6 +18,7 @@ use crate::movement::{ChannelGroup, MotionTrack};
 const MAX_WRITTEN_RATE: f64 = 1000.0;
 /// The number of decimals that count in a frame time from a typed rate.
 const TYPED_RATE_DECIMALS: u32 = 6;
+const CENTIMETRES_PER_METRE: f64 = 100.0;
 
 /// The form in which movement is written.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -26,7 +27,7 @@ pub struct MovementForm {
     pub rig: Option<AvatarRig>,
     /// The frame rate, unless that of the capture is kept.
     pub rate: Option<FrameRate>,
-    /// Whether the hips stay above the place where they are first.
+    /// Whether the hips stay above their first place.
     pub is_in_place: bool,
 }
 
@@ -161,11 +162,10 @@ impl ShapedMovement {
 
     /// Returns the movement in centimetres, as programs that read BVH expect it.
     pub(super) fn clip_in_centimetres(&self) -> CorpusResult<Clip> {
-        const CENTIMETRES: f64 = 100.0;
         let joints = self.clip.clip_skeleton().skeleton_joints().iter();
         let joints = joints.map(|joint| SkeletonJoint {
-            offset: joint.offset * CENTIMETRES,
-            tip: joint.tip.map(|tip| tip * CENTIMETRES),
+            offset: joint.offset * CENTIMETRES_PER_METRE,
+            tip: joint.tip.map(|tip| tip * CENTIMETRES_PER_METRE),
             ..joint.clone()
         });
         let mut channels = self.clip.joint_channels().to_vec();
@@ -174,7 +174,7 @@ impl ShapedMovement {
             .filter_map(|channel| channel.translations.as_mut())
             .flatten()
         {
-            *place *= CENTIMETRES;
+            *place *= CENTIMETRES_PER_METRE;
         }
         let fault = |error: String| CorpusError::from_wrong_message(error);
         let skeleton = Skeleton::new(joints.collect()).map_err(|error| fault(error.to_string()))?;
@@ -182,7 +182,7 @@ impl ShapedMovement {
     }
 }
 
-/// Returns a movement whose hips stay above the place where they are in the first frame.
+/// Returns a movement whose hips stay above their place in the first frame.
 fn clip_in_place(clip: Clip, anatomy: &BodyAnatomy) -> Clip {
     let hips = clip.joint_path(anatomy.part_joint(BodyPart::Hips).unwrap_or(0));
     let (skeleton, rate) = (clip.clip_skeleton().clone(), clip.clip_frame_rate());

@@ -1,4 +1,4 @@
-//! Tests of movement on the bones of avatars: what comes back moves its arms as the capture did.
+//! Tests of movement on the bones of avatars: imported again, arms move as in the capture.
 
 use std::path::{Path, PathBuf};
 

@@ -406,7 +406,7 @@ impl Corpus {
     ) -> CorpusResult<Vec<CorpusConflict>> {
         self.store.run_store_operation(|connection| {
             edits::defer_references(connection)?;
-            let mut open_by_number = BTreeMap::new();
+            let (mut open_by_number, mut decided) = (BTreeMap::new(), Vec::new());
             for number in numbers {
                 let key = format!("{CONFLICT_KEY_PREFIX}{number:06}");
                 let stored_notes = db::list_corpus_notes(connection, &key)?;
@@ -437,9 +437,9 @@ impl Corpus {
                 let text =
                     serde_json::to_string(&open).map_err(|error| CorpusError::from_wrong_message(error.to_string()))?;
                 db::set_note(connection, &key, &text)?;
-                // A decision counts as an adjudication, even where it changes no annotation.
-                rederive_conflict_tokens(connection, &open)?;
+                decided.push(open);
             }
+            update_conflict_tokens(connection, &decided)?;
             rules::check_new_violations(connection, &open_by_number)?;
             let all_conflicts = list_conflicts(connection)?.into_iter();
             let all: Vec<CorpusConflict> = all_conflicts
@@ -520,7 +520,7 @@ fn theirs(connection: &Connection, open: &StoredConflict) -> CorpusResult<()> {
         (None, Some(_)) => return remove_conflict_row(connection, open),
         (None, None) => {}
     }
-    rederive_conflict_tokens(connection, open)
+    Ok(())
 }
 
 /// Removes the row of a conflict with all of its parts.
@@ -528,7 +528,7 @@ fn remove_conflict_row(connection: &Connection, open: &StoredConflict) -> Corpus
     if let Some(id) = MergeSide::present_merge_side(connection).find_row_id(&open.table, &open.uid)? {
         remove_whole(connection, &open.table, id)?;
     }
-    rederive_conflict_tokens(connection, open)
+    Ok(())
 }
 
 fn remove_whole(connection: &Connection, table: &str, id: i64) -> CorpusResult<()> {
@@ -604,7 +604,7 @@ fn keep_both_candidates(connection: &Connection, open: &StoredConflict) -> Corpu
     image.remove("uid");
     image.insert("external_id".into(), Value::Null);
     db::insert_row_image(connection, "annotation", &image)?;
-    rederive_conflict_tokens(connection, open)
+    Ok(())
 }
 
 /// Returns the tier for second candidates of a tier; creates it if it is missing.
@@ -643,12 +643,17 @@ fn recordings_of(connection: &Connection, open: &StoredConflict) -> CorpusResult
     Ok(all)
 }
 
-/// Derives the tokens of the conflict's recording again.
-fn rederive_conflict_tokens(connection: &Connection, open: &StoredConflict) -> CorpusResult<()> {
-    if !["annotation", "tier"].contains(&open.table.as_str()) {
-        return Ok(());
+/// Derives the tokens of the recordings of decided conflicts again: a decision counts as an adjudication, even if it changes
+/// no annotation.
+fn update_conflict_tokens(connection: &Connection, decided: &[StoredConflict]) -> CorpusResult<()> {
+    let mut changed = BTreeSet::new();
+    for conflict in decided
+        .iter()
+        .filter(|conflict| ["annotation", "tier"].contains(&conflict.table.as_str()))
+    {
+        changed.extend(recordings_of(connection, conflict)?);
     }
-    for recording in recordings_of(connection, open)? {
+    for recording in changed {
         let inventories = inventories::load_of(connection, recording)?;
         tokens::update_recording_tokens(connection, recording, None, &inventories)?;
     }

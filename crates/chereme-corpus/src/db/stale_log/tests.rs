@@ -31,7 +31,7 @@ fn a_log_is_used_with_its_own_file_only() {
     let read = |corpus: &Corpus| corpus.store.read_connection().query_row(checkpoint, [], |_| Ok(()));
     read(&corpus).expect("written");
     keep_many_searches(&mut corpus, "third");
-    // What a killed program leaves.
+    // A killed program leaves these.
     fs::copy(&path, place("killed")).expect("copied");
     fs::copy(companion_path(&path, "-wal"), place("log")).expect("copied");
     drop(corpus);
