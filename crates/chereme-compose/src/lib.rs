@@ -96,7 +96,7 @@ pub use outcome::{
     ChannelReport, CueTier, GeneratedCurve, GeneratedMovement, GeneratedNote, GenerationReport, HandReport, JoinReport,
     NoteSubject, StepReport, TouchReport,
 };
-pub use poses::{ExactHandRotations, HandPose, PoseOrigin};
+pub use poses::{DonorCoding, ExactHandRotations, HandPose, PoseOrigin};
 pub use recipe::{MAX_RECIPE_DEPTH, MOST_PARTS, RECIPE_TREE_VERSION, Recipe};
 pub use recipe_inputs::{ExpressionInput, LetterInput, MaterialInput, PlaceInput, RecipeInput, RecipeInputs};
 pub use resolve::{ResolvedRecipe, resolve_recipe};

@@ -22,6 +22,36 @@ pub struct HandPose {
     /// The local rotations of the joints below the wrist, for a skeleton with the same fingers.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub exact: Option<ExactHandRotations>,
+    /// The coding by which the sign was found to show the value; `None` for a sign that the recipe names.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub coding: Option<DonorCoding>,
+}
+
+/// The coding that says that a sign shows a value, and how well the movement agrees with it.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DonorCoding {
+    /// The annotator, if known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub by: Option<String>,
+    /// The confidence of the detector whose proposal was accepted.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub confidence: Option<f64>,
+    /// The root mean square of the differences to the angles of the inventory's posture, in radians.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub angle: Option<f64>,
+}
+
+impl std::fmt::Display for DonorCoding {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let by = self.by.as_ref().map(|by| format!("coded by {by}"));
+        let confidence = self.confidence.map(|sure| format!("confidence {sure:.2}"));
+        let angle = self
+            .angle
+            .map(|angle| format!("{:.0}° from the inventory's posture", angle.to_degrees()));
+        let parts: Vec<String> = [by, confidence, angle].into_iter().flatten().collect();
+        write!(f, "{}", parts.join(", "))
+    }
 }
 
 impl HandPose {
@@ -85,6 +115,8 @@ impl std::fmt::Display for PoseOrigin {
 const NEAR_VALUE_DISTANCE_RAD: f64 = 0.25;
 /// The greatest such distance of a posture from the value that it shows.
 const SHOWN_VALUE_DISTANCE_RAD: f64 = 0.2;
+/// The greatest such distance of an example's posture from the value that it is coded with: 20 degrees.
+const AGREEING_DISTANCE_RAD: f64 = 20.0 * std::f64::consts::PI / 180.0;
 /// The number of examples that are tried before the next best kind of source.
 const MAX_EXAMPLE_TRIES: usize = 8;
 
@@ -123,7 +155,8 @@ pub(crate) fn choose_hand_poses(
     }
 }
 
-/// Returns the posture for a value: from the same signer, another signer, a modified neighbour, or the inventory.
+/// Returns the posture for a value: from the same signer, another signer, a modified neighbour, or the inventory. Signs
+/// whose hand shows another posture than they are coded with give none.
 pub(crate) fn of_value(
     sources: &dyn RecipeSources,
     value: &ComponentValue,
@@ -135,7 +168,7 @@ pub(crate) fn of_value(
     let same_examples = examples.iter().filter(same).take(MAX_EXAMPLE_TRIES);
     let others = examples.iter().filter(|e| !same(e)).take(MAX_EXAMPLE_TRIES);
     for example in same_examples.chain(others) {
-        if let Some(pose) = pose_shown_by_example(sources, example, Some(&value.id), side)? {
+        if let Some(pose) = pose_agreeing_with_value(sources, example, value, side)? {
             return Ok(with_origin(pose, example, setting));
         }
     }
@@ -152,6 +185,7 @@ pub(crate) fn of_value(
         origin: PoseOrigin::Inventory(value.inventory.clone()),
         angles: *angles,
         exact: None,
+        coding: None,
     })
 }
 
@@ -185,7 +219,7 @@ fn from_neighbour(
             if setting.signer.is_none() || example.signer != setting.signer {
                 continue;
             }
-            let Some(pose) = pose_shown_by_example(sources, example, Some(&value.id), side)? else {
+            let Some(pose) = pose_agreeing_with_value(sources, example, &value, side)? else {
                 continue;
             };
             let (a, b, c) = (pose.angles.to_array(), angles.to_array(), other.to_array());
@@ -199,6 +233,7 @@ fn from_neighbour(
                 },
                 angles: HandAngles::from_array(changed),
                 exact: None,
+                coding: pose.coding,
             }));
         }
     }
@@ -225,6 +260,29 @@ fn hand_angle_distance(a: &HandAngles, b: &HandAngles) -> f64 {
         .zip(b.to_array())
         .map(|(x, y)| (x - y) * (x - y));
     (squares.sum::<f64>() / HandAngles::HAND_ANGLE_COUNT as f64).sqrt()
+}
+
+/// Returns the posture of an example that is coded with a value, with its coding; `None` if the hand has no fingers, or its
+/// posture is another one than the inventory's.
+fn pose_agreeing_with_value(
+    sources: &dyn RecipeSources,
+    example: &TokenExample,
+    value: &ComponentValue,
+    side: BodySide,
+) -> Result<Option<HandPose>, StepError> {
+    let Some(pose) = pose_shown_by_example(sources, example, Some(&value.id), side)? else {
+        return Ok(None);
+    };
+    let angle = match &value.meaning {
+        Some(ValueMeaning::Hand(own)) => Some(hand_angle_distance(&pose.angles, own)),
+        _ => None,
+    };
+    let coding = Some(DonorCoding {
+        angle,
+        ..example.coding.clone()
+    });
+    let agrees = angle.is_none_or(|angle| angle < AGREEING_DISTANCE_RAD);
+    Ok(agrees.then_some(HandPose { coding, ..pose }))
 }
 
 /// Returns the posture in the middle of an example's span; `None` if the hand has no fingers.
@@ -336,6 +394,7 @@ fn pose_at(
             side,
             joints: joints.collect(),
         }),
+        coding: None,
     })
 }
 

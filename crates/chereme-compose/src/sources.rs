@@ -13,6 +13,7 @@ use crate::cue_timing::CuePhases;
 use crate::error::SourceError;
 use crate::language::BodyLanguageChanges;
 use crate::outcome::GeneratedCurve;
+use crate::poses::DonorCoding;
 
 /// The source of movement, values and examples for recipes; a corpus implements it.
 ///
@@ -325,6 +326,8 @@ pub struct TokenExample {
     pub hand: Option<BodySide>,
     /// The span, from the start of its movement; `None` for all of it.
     pub span: Option<TimeSpan>,
+    /// Who coded it with the value.
+    pub coding: DonorCoding,
 }
 
 /// A letter of a manual alphabet.

@@ -13,6 +13,7 @@ use chereme_sign::milestones::{ExpressionFunction, ExpressionMilestones};
 use chereme_sign::{ComponentReading, SignComponent, SignerHandedness};
 
 use crate::error::{MakeError, SourceError, StepError};
+use crate::poses::DonorCoding;
 use crate::recipe::Recipe;
 use crate::recipe_inputs::{RecipeInput, RecipeInputs};
 use crate::resolve::ResolvedRecipe;
@@ -260,11 +261,11 @@ impl Shelf {
             expressions: BTreeMap::new(),
             values: vec![
                 (configuration, value("Y", pose(0.3))),
-                (configuration, value("U", pose(0.9))),
-                (configuration, value("H", pose(1.0))),
+                (configuration, value("U", pose(0.7))),
+                (configuration, value("H", pose(0.8))),
                 (configuration, value("V", pose(1.6))),
                 (configuration, value("B", pose(0.1))),
-                (configuration, value("S", pose(1.5))),
+                (configuration, value("S", pose(0.2))),
                 (configuration, value("claw", None)),
                 (SignComponent::Placement, place("chin", "chin", [0.0, 0.0, 0.3])),
                 (
@@ -353,6 +354,7 @@ impl RecipeSources for Shelf {
             .flat_map(|m| m.held.iter().map(move |h| (m, h)))
             .filter(|(_, h)| h.component == component && h.value.reading_value() == Some(value))
             .map(|(m, h)| TokenExample {
+                coding: DonorCoding::default(),
                 address: m.address.clone(),
                 signer: m.signer.clone(),
                 hand: h.hand,

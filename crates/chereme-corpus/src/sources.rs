@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use chereme_compose::recipe::BUILT_IN_BODY;
 use chereme_compose::{
-    AlphabetLetter, BodyInput, BodyLanguageChanges, ComponentValue, CuePhases, ExpressionSource, HeldValue,
-    LearnedProfile, MovementMaterial, RecipeSources, SourceError, SpellingTimes, TokenExample,
+    AlphabetLetter, BodyInput, BodyLanguageChanges, ComponentValue, CuePhases, DonorCoding, ExpressionSource,
+    HeldValue, LearnedProfile, MovementMaterial, RecipeSources, SourceError, SpellingTimes, TokenExample,
 };
 use chereme_motion::{BodySide, RecordingInstant, TimeSpan};
 use chereme_sign::ComponentInventory;
@@ -238,6 +238,7 @@ impl<'a> CorpusSources<'a> {
             signer: signer.map(|name| CorpusAddress::Signer(RowName::Text(name)).to_string()),
             hand,
             span: span.map(|span| span.shifted_span(-start)),
+            coding: DonorCoding::default(),
         }))
     }
 }
@@ -442,7 +443,13 @@ impl RecipeSources for CorpusSources<'_> {
                     SignerHandedness::Right
                 };
                 let hand = hand.map(|hand| hand.resolve_hand_ref(handedness));
-                examples.extend(self.token_example(found.token, hand, span)?);
+                let coding = DonorCoding {
+                    by: found.by,
+                    confidence: found.confidence,
+                    angle: None,
+                };
+                let example = self.token_example(found.token, hand, span)?;
+                examples.extend(example.map(|example| TokenExample { coding, ..example }));
             }
             Ok(examples)
         };

@@ -56,6 +56,7 @@ fn cue_shape_posture(
             origin: poses::PoseOrigin::Inventory(value.inventory.clone()),
             angles: *angles,
             exact: None,
+            coding: None,
         }),
         Some(ValueMeaning::Place(_)) | None => poses::of_value(ask.sources, value, side, setting),
     }

@@ -66,6 +66,7 @@ fn shapes() -> Vec<(u8, HandPose)> {
             origin: PoseOrigin::Inventory("test".into()),
             angles,
             exact: None,
+            coding: None,
         }
     };
     (0..=8).map(|number| (number, pose(number))).collect()

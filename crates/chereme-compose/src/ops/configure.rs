@@ -323,12 +323,14 @@ fn value_change_frames(from: usize, to: usize, length: usize, asked: bool, spans
 
 fn describe_configured_value(note: &GeneratedNote, pose: &HandPose) -> String {
     let name = |value: Option<&str>| value.map_or("(no value)".to_owned(), str::to_owned);
+    let coding = pose.coding.as_ref().map(|coding| format!(", {coding}"));
     format!(
-        "{} becomes {} over {}, from {}",
+        "{} becomes {} over {}, from {}{}",
         name(note.value.reading_value()),
         name(pose.value.as_deref()),
         format_shown_span(note.span),
-        pose.origin
+        pose.origin,
+        coding.filter(|text| text.len() > 2).unwrap_or_default()
     )
 }
 

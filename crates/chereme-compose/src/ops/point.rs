@@ -238,6 +238,7 @@ fn index_finger() -> HandPose {
             fingers,
         },
         exact: None,
+        coding: None,
     }
 }
 

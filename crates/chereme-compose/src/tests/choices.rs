@@ -81,6 +81,36 @@ fn a_value_comes_from_the_nearest_source() {
 }
 
 #[test]
+fn a_sign_whose_hand_shows_another_posture_than_it_is_coded_with_gives_none() {
+    let mut shelf = Shelf::new();
+    for held in &mut shelf.materials.get_mut("BOL").expect("there").held {
+        if held.value.reading_value() == Some("S") {
+            held.value = chereme_sign::ComponentReading::Value("V".into());
+        }
+    }
+    let chosen = |recipe: &str| {
+        let recipe: crate::Recipe = recipe.parse().expect("recipe");
+        let resolved = resolve_recipe(&recipe, &shelf).expect("resolved");
+        let mut inputs = resolved.resolved_inputs().0.values();
+        let pose = inputs.find_map(|input| match input {
+            crate::RecipeInput::Poses(poses) => Some(poses[0].clone()),
+            _ => None,
+        });
+        let said = evaluate_recipe(&resolved).expect("made").report.to_string();
+        (pose.expect("a posture"), said)
+    };
+    // BOL is coded with V, but its fingers are far less bent.
+    let (pose, said) = chosen("ESCARGOT | configure right V");
+    assert_eq!(pose.origin, crate::PoseOrigin::Inventory("configurations".into()));
+    assert!(!said.contains("from the inventory's posture"), "{said}");
+    let (pose, said) = chosen("ESCARGOT | configure right U");
+    let angle = pose.coding.expect("a coding").angle.expect("an angle");
+    assert!(angle < 20_f64.to_radians(), "{angle}");
+    let degrees = format!("{:.0}° from the inventory's posture", angle.to_degrees());
+    assert!(said.contains(&degrees), "{said}");
+}
+
+#[test]
 fn a_resolved_recipe_is_stored_and_gives_the_same_movement() {
     let shelf = Shelf::new();
     for text in [

@@ -604,6 +604,10 @@ pub(crate) struct HoldingRow {
     pub(crate) left_handed: bool,
     /// The annotation that gives the value, within the token.
     pub(crate) span_us: Option<(i64, i64)>,
+    /// The annotator, if known.
+    pub(crate) by: Option<String>,
+    /// The confidence of an accepted proposal.
+    pub(crate) confidence: Option<f64>,
 }
 
 /// Returns the tokens of recordings that have a value of a component, captured ones first. Generated tokens are left
@@ -611,11 +615,11 @@ pub(crate) struct HoldingRow {
 pub(crate) fn tokens_holding(connection: &Connection, component: &str, value: &str) -> CorpusResult<Vec<HoldingRow>> {
     // Tokens of people come first, and 200 are more than a recipe ever tries.
     let sql = "SELECT t.id, v.hand, coalesce(g.handedness = 'left', 0),
-                max(a.start_us, t.start_us), min(a.end_us, t.end_us)
+                max(a.start_us, t.start_us), min(a.end_us, t.end_us), i.annotator, a.confidence
          FROM token_value v JOIN token t ON t.id = v.token_id
          JOIN recording r ON r.id = t.recording_id
          LEFT JOIN signer g ON g.id = r.signer_id
-         LEFT JOIN annotation a ON a.id = v.annotation_id
+         LEFT JOIN annotation a ON a.id = v.annotation_id LEFT JOIN tier i ON i.id = a.tier_id
          WHERE v.component = ?1 AND v.feature IS NULL AND v.value = ?2 AND r.origin <> 'made'
          ORDER BY r.origin <> 'captured', t.id, v.id
          LIMIT 200";
@@ -628,6 +632,8 @@ pub(crate) fn tokens_holding(connection: &Connection, component: &str, value: &s
             left_handed: row.get(2)?,
             // An annotation may only touch its token, and has no time in common with it.
             span_us: start.zip(end).filter(|(start, end)| start < end),
+            by: row.get(5)?,
+            confidence: row.get(6)?,
         })
     })
 }
