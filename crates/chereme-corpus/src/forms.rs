@@ -465,7 +465,7 @@ fn of_codings(
     let connection = corpus.store.read_connection();
     let (mut tokens, source) = match selection {
         FormSelection::Tokens(tokens) => (tokens.clone(), FormSource::Tokens),
-        _ => (signs::load_citation_tokens(connection)?, FormSource::Citations),
+        _ => (signs::load_coded_citation_tokens(connection)?, FormSource::Citations),
     };
     if let FormSelection::Signs(signs) = selection {
         tokens.retain(|token| signs.contains(&token.sign_id));
@@ -479,7 +479,10 @@ fn of_codings(
         if done % FORM_REPORT_STEP_TOKENS == 0 {
             progress.report_amount(ProgressUnit::Items, "codings", done as u64, Some(all))?;
         }
-        let coding = reader.coding_of(&token)?;
+        let coding = match source {
+            FormSource::Tokens => reader.coding_of(&token)?,
+            _ => reader.citation_coding(&token)?,
+        };
         // A sign without any coding has no form to compare.
         if !coding.is_empty() {
             codings.push((token.gloss, coding));

@@ -77,7 +77,7 @@ impl Corpus {
     pub fn suggest_new_signs(&self, address: &CorpusAddress, across: bool) -> CorpusResult<SignSuggestions> {
         let connection = self.store.read_connection();
         let token = address::find_addressed_token(connection, address)?;
-        let own_words = CodingReader::in_own_words(self);
+        let own_words = CodingReader::in_own_words(self)?;
         let compared_words = CodingReader::in_standing_words(self)?;
         let token_coding = own_words.coding_of(&token)?;
         let compared_coding = compared_words.coding_of(&token)?;
@@ -96,13 +96,13 @@ impl Corpus {
         let mut used: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
         let of_signs = signs::lexicons_of_signs(connection)?;
         let lexicon = of_signs.get(&token.sign_id);
-        for other in signs::load_citation_tokens(connection)? {
+        for other in signs::load_coded_citation_tokens(connection)? {
             let is_elsewhere = |other_lexicon| lexicon.is_some_and(|lexicon| lexicon != other_lexicon);
             // A sign is no partner of itself.
             if other.sign_id == token.sign_id || !across && of_signs.get(&other.sign_id).is_some_and(is_elsewhere) {
                 continue;
             }
-            let theirs = compared_words.coding_of(&other)?;
+            let theirs = compared_words.citation_coding(&other)?;
             let (equal, different) = compare_codings(&compared_coding, &theirs);
             if equal < LEAST_EQUAL || different.len() != 1 {
                 continue;
@@ -110,7 +110,7 @@ impl Corpus {
             let field = different[0].clone();
             // A value that a partner has is in use with the rest of this coding.
             used.entry(field.clone()).or_default().insert(theirs[&field].clone());
-            let mut their_words = own_words.coding_of(&other)?;
+            let mut their_words = own_words.citation_coding(&other)?;
             let (from, to) = (
                 token_coding[&field].clone(),
                 their_words.remove(&field).unwrap_or_default(),
@@ -217,23 +217,41 @@ pub(crate) fn coding_name(field: &ComponentField) -> String {
 pub(crate) struct CodingReader<'c> {
     corpus: &'c Corpus,
     standing_words: StandingWords,
+    /// The citation forms of signs that have several.
+    several_citations: BTreeMap<i64, Vec<TokenRow>>,
 }
 
 impl<'c> CodingReader<'c> {
     /// Reads values as they are coded.
-    fn in_own_words(corpus: &'c Corpus) -> Self {
-        Self {
-            corpus,
-            standing_words: StandingWords::default(),
-        }
+    fn in_own_words(corpus: &'c Corpus) -> CorpusResult<Self> {
+        Self::in_words(corpus, StandingWords::default())
     }
 
     /// Reads values in words that can be compared: of values that a person made one, that of the value that stands for them.
     pub(crate) fn in_standing_words(corpus: &'c Corpus) -> CorpusResult<Self> {
+        let standing_words = StandingWords::load_standing_words(corpus.store.read_connection())?;
+        Self::in_words(corpus, standing_words)
+    }
+
+    fn in_words(corpus: &'c Corpus, standing_words: StandingWords) -> CorpusResult<Self> {
         Ok(Self {
             corpus,
-            standing_words: StandingWords::load_standing_words(corpus.store.read_connection())?,
+            standing_words,
+            several_citations: signs::load_several_citations(corpus.store.read_connection())?,
         })
+    }
+
+    /// Returns the values of a citation form by field; fields that it is not coded for have those of the sign's other citation forms.
+    pub(crate) fn citation_coding(&self, token: &TokenRow) -> CorpusResult<TokenCoding> {
+        let mut coding = self.coding_of(token)?;
+        for other in self.several_citations.get(&token.sign_id).into_iter().flatten() {
+            if other.id != token.id {
+                for (field, value) in self.coding_of(other)? {
+                    coding.entry(field).or_insert(value);
+                }
+            }
+        }
+        Ok(coding)
     }
 
     /// Returns the values of a token by field.

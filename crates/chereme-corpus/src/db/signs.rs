@@ -655,15 +655,41 @@ pub(crate) fn lexicon_entries(connection: &Connection) -> CorpusResult<Vec<Token
 /// Returns one citation form of each sign. A sign that has one in a lexicon and one with movement is represented by the
 /// one that is coded for more components, else by the one with movement.
 pub(crate) fn load_citation_tokens(connection: &Connection) -> CorpusResult<Vec<TokenRow>> {
+    load_ranked_citation_tokens(connection, "")
+}
+
+/// Returns one citation form of each sign, whose coding stands for the sign: one of a lexicon or an annotated one before
+/// one that was made, since that has the values of its recipe or notation.
+pub(crate) fn load_coded_citation_tokens(connection: &Connection) -> CorpusResult<Vec<TokenRow>> {
+    load_ranked_citation_tokens(connection, "c.origin IN ('made', 'generated'),")
+}
+
+fn load_ranked_citation_tokens(connection: &Connection, first_rank: &str) -> CorpusResult<Vec<TokenRow>> {
     // A form that is coded more fully stands for its sign; of equal ones the one that can be seen moving.
     let sql = format!(
         "{SELECT_TOKEN_SQL} WHERE t.citation = 1 AND t.id =
                 (SELECT c.id FROM token c WHERE c.sign_id = t.sign_id AND c.citation = 1
-                 ORDER BY (SELECT count(DISTINCT v.component) FROM token_value v
+                 ORDER BY {first_rank} (SELECT count(DISTINCT v.component) FROM token_value v
                            WHERE v.token_id = c.id AND v.state <> 'unset') DESC,
                           c.recording_id IS NULL, c.id
                  LIMIT 1)
          ORDER BY t.id"
     );
     connection.read_rows(&sql, [], token_row)
+}
+
+/// Returns the citation forms of signs that have several, by sign.
+pub(crate) fn load_several_citations(connection: &Connection) -> CorpusResult<BTreeMap<i64, Vec<TokenRow>>> {
+    let sql = format!(
+        "{SELECT_TOKEN_SQL} WHERE t.citation = 1 AND t.sign_id IN
+             (SELECT sign_id FROM token WHERE citation = 1 GROUP BY sign_id HAVING count(*) > 1)
+         ORDER BY t.origin IN ('made', 'generated'), t.id"
+    );
+    let mut several: BTreeMap<i64, Vec<TokenRow>> = BTreeMap::new();
+    connection.visit_rows(&sql, [], |row| {
+        let token = token_row(row)?;
+        several.entry(token.sign_id).or_default().push(token);
+        Ok(())
+    })?;
+    Ok(several)
 }

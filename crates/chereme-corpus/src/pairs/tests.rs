@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::*;
 use crate::progress::ProgressReceiver;
-use crate::{ImportOptions, ignore_progress_step};
+use crate::{ImportOptions, SearchOptions, ignore_progress_step};
 
 fn corpus_of(folder: &std::path::Path, file: &std::path::Path) -> Corpus {
     let mut corpus = Corpus::create_corpus(&folder.join("c.chereme"), "A").expect("made");
@@ -301,6 +301,39 @@ fn a_sign_with_two_citation_forms_is_one_entry_and_no_homonym_of_itself() {
     assert!(found.entries <= glosses.len(), "{found:?}");
     assert!(found.list.iter().all(|it| it.a != it.b), "{found:?}");
     assert_eq!(found.entries - found.forms, found.homonym_signs - found.homonym_groups);
+}
+
+#[test]
+fn a_coded_value_counts_before_the_one_of_a_sign_that_was_made_from_notation() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let table = folder.path().join("signs.csv");
+    let notation = "hamflathand hamextfingeru hampalml hamchest";
+    std::fs::write(
+        &table,
+        format!("gloss,handshape,HamNoSys\nBOOK,B,{notation}\nCAT,B,{notation}\n"),
+    )
+    .expect("written");
+    let mut corpus = Corpus::create_corpus(&folder.path().join("c.chereme"), "A").expect("made");
+    let mut hear = ignore_progress_step;
+    let progress = &mut ProgressReceiver::new(&mut hear);
+    corpus
+        .import_paths(&[table], &ImportOptions::default(), progress)
+        .expect("imported");
+    let fields = ["dominant.configuration"];
+    let before = asked(&mut corpus, &fields, EmptyCellTreatment::Value);
+    let staging = crate::NotationStaging::default();
+    corpus
+        .animate_notation(&["BOOK"], &staging, Some("BOOK"))
+        .expect("made");
+    let made = corpus.search_tokens("gloss=BOOK origin=made", &SearchOptions::default());
+    let made = made.expect("found").hits.remove(0);
+    assert_ne!(
+        made.components["right.configuration"], "B",
+        "the words of the notation differ"
+    );
+    let after = asked(&mut corpus, &fields, EmptyCellTreatment::Value);
+    assert_eq!((before.forms, before.homonym_signs), (1, 2));
+    assert_eq!((after.forms, after.homonym_signs), (1, 2));
 }
 
 #[test]
