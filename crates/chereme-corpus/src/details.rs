@@ -10,10 +10,10 @@ use crate::address::{self, CorpusAddress, RowName};
 use crate::db::lexicons;
 use crate::db::people::{self, PersonContents};
 use crate::db::signs::{self, TokenRow};
-use crate::db::stored_columns::{ValueState, phase_name};
+use crate::db::stored_columns::{OpinionStanding, ValueState, phase_name};
 use crate::db::stored_recordings::{self, RecordingRow};
 use crate::db::stored_search::begin_reading;
-use crate::db::stored_search::search_answers::{self, OpinionStanding};
+use crate::db::stored_search::search_answers::{self, AnnotationOpinion};
 use crate::db::stored_tracks::{self, TrackRow};
 use crate::db::{edits, notations, recipes};
 use crate::error::{CorpusError, CorpusResult};
@@ -57,7 +57,7 @@ pub struct TokenDetails {
     pub row: TokenRow,
     /// Its values.
     pub values: Vec<TokenValue>,
-    /// The proposals of detectors and the values that annotators dispute; they do not count.
+    /// The values that do not count, apart from those that agree with one that does.
     pub opinions: Vec<ValueOpinion>,
     /// Its HamNoSys, if it is notated.
     pub notation: Option<String>,
@@ -70,7 +70,7 @@ pub struct TokenDetails {
 }
 
 /// A value of a token.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct TokenValue {
     /// The field, such as `initial.right.placement`.
     pub field: String,
@@ -84,9 +84,17 @@ pub struct TokenValue {
     pub inventory: Option<i64>,
     /// The annotation that gives the value.
     pub annotation: Option<i64>,
+    /// The annotator whose annotation counts, or `adjudication`, then the annotators who say the same.
+    pub by: Vec<String>,
+    /// The confidence of the detector that found it.
+    pub confidence: Option<f64>,
+    /// The detector that found it, with its version, if a person accepted or corrected a proposal.
+    pub detector: Option<String>,
+    /// What the detector proposed before a person corrected it.
+    pub proposed: Option<String>,
 }
 
-/// A proposal or a disputed value of a token; it does not count.
+/// A value of a token that does not count, such as a proposal.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ValueOpinion {
     /// The field, such as `right.configuration`.
@@ -101,6 +109,23 @@ pub struct ValueOpinion {
     /// The confidence of the detector.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub confidence: Option<f64>,
+    /// The detector that found it, with its version.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub detector: Option<String>,
+}
+
+impl ValueOpinion {
+    /// Returns the opinion about a field that an annotation is.
+    pub(crate) fn from_annotation(field: String, standing: OpinionStanding, said: AnnotationOpinion) -> Self {
+        Self {
+            field,
+            value: said.state.missing_text().map_or(said.value, str::to_owned),
+            standing,
+            by: said.by,
+            confidence: said.confidence,
+            detector: said.detector,
+        }
+    }
 }
 
 /// Full details of a sign.
@@ -199,20 +224,43 @@ impl Corpus {
             value: value_row.value,
             inventory: value_row.inventory_id,
             annotation: value_row.annotation_id,
+            by: Vec::new(),
+            confidence: None,
+            detector: None,
+            proposed: None,
         };
-        let values = signs::load_token_values(&reading, row.id)?;
         let mut opinions = Vec::new();
         for value_row in signs::load_token_opinions(&reading, row.id)? {
             let annotation = value_row.annotation_id.unwrap_or_default();
             let opinion = search_answers::opinion_of_annotation(&reading, annotation)?;
-            opinions.extend(opinion.map(|opinion| ValueOpinion {
-                field: value_field_name(&value_row),
-                value: opinion.state.missing_text().map_or(opinion.value, str::to_owned),
-                standing: opinion.standing,
-                by: opinion.by,
-                confidence: opinion.confidence,
+            opinions.extend(opinion.map(|opinion| {
+                let standing = value_row.standing.unwrap_or(opinion.usual_standing);
+                ValueOpinion::from_annotation(value_field_name(&value_row), standing, opinion)
             }));
         }
+        let mut values = Vec::new();
+        for value_row in signs::load_token_values(&reading, row.id)? {
+            let source = match value_row.annotation_id {
+                Some(annotation) => search_answers::opinion_of_annotation(&reading, annotation)?,
+                None => None,
+            };
+            let mut value = value(value_row);
+            // Those who agree are named with the one whose annotation counts.
+            let is_agreeing =
+                |opinion: &&ValueOpinion| (opinion.standing, &opinion.field) == (OpinionStanding::Agreed, &value.field);
+            let agreeing = opinions
+                .iter()
+                .filter(is_agreeing)
+                .filter_map(|opinion| opinion.by.clone());
+            let own = source.as_ref().and_then(|source| source.by.clone());
+            value.by = own.into_iter().chain(agreeing).collect();
+            if let Some(source) = source {
+                (value.detector, value.proposed) = (source.detector, source.proposed);
+                value.confidence = source.confidence;
+            }
+            values.push(value);
+        }
+        opinions.retain(|opinion| opinion.standing != OpinionStanding::Agreed);
         let recipe = match row.recording_id {
             Some(recording) => recipes::find_recording_recipe(&reading, recording)?,
             None => None,
@@ -222,7 +270,7 @@ impl Corpus {
             None => Vec::new(),
         };
         Ok(TokenDetails {
-            values: values.into_iter().map(value).collect(),
+            values,
             opinions,
             notation: token_hamnosys_text(&reading, row.id)?,
             recipe: recipe.map(|recipe| recipe.text),

@@ -24,7 +24,7 @@ use crate::annotate::{AnnotateOptions, AnnotationAction, AnnotationChange, Annot
 use crate::contents::ProposalAcceptor;
 use crate::db::stored_columns::{AnnotationOrigin, RecordOrigin};
 use crate::db::stored_recordings::{self, RecordingRow};
-use crate::db::stored_tiers::{self, PROPOSAL_TIER_SUFFIX, TierRow, proposed_for};
+use crate::db::stored_tiers::{self, AnnotationRow, PROPOSAL_TIER_SUFFIX, REJECTED_TIER_SUFFIX, TierRow, proposed_for};
 use crate::error::{CorpusError, CorpusResult};
 use crate::movement::{ChannelGroup, MotionTrack};
 use crate::progress::ProgressReceiver;
@@ -161,6 +161,8 @@ fn subject_tier(subject: &DetectedSubject) -> String {
 pub(crate) struct ProposalChanges {
     tiers: Vec<NewTier>,
     changes: Vec<AnnotationChange>,
+    /// The detector that found them.
+    detector: Option<&'static str>,
     /// How many annotations are added.
     pub(crate) added: u64,
 }
@@ -261,6 +263,7 @@ impl Corpus {
         };
         let options = AnnotateOptions {
             origin,
+            detector: changes.detector,
             ..AnnotateOptions::default()
         };
         let report = self.annotate_with(effect, &changes.tiers, &changes.changes, &options, progress)?;
@@ -511,7 +514,9 @@ impl ProposalChanges {
         proposals: &[ProposedAnnotation],
         coder: Option<&ProposalAcceptor>,
     ) -> CorpusResult<()> {
+        self.detector = Some(detector.detector_name());
         let tier_rows = stored_tiers::load_tier_rows(connection, recording)?;
+        let rejected = rejected_proposals(connection, &tier_rows)?;
         let is_name_used = |name: &str| tier_rows.iter().any(|row| row.name == name);
         for subject in detector.detected_subjects() {
             let proposal_name = subject_tier(&subject);
@@ -553,6 +558,13 @@ impl ProposalChanges {
             // A tier is created with its first proposal only, so that no empty tiers appear.
             let mut needed_tier = known_tier.is_none().then_some(tier);
             for proposal in proposals.iter().filter(|proposal| proposal.subject == subject) {
+                // Proposed again, it would have to be rejected again.
+                let is_rejected = |(tier, row): &(String, AnnotationRow)| {
+                    *tier == proposal_name && row.value == proposal.value && overlaps_proposal(row, proposal)
+                };
+                if rejected.iter().any(is_rejected) {
+                    continue;
+                }
                 let mut others = occupied.iter();
                 if others.any(|other| other.start < proposal.end_us && proposal.start_us < other.end) {
                     continue;
@@ -565,6 +577,25 @@ impl ProposalChanges {
         }
         Ok(())
     }
+}
+
+/// Returns the proposals of a recording that a person rejected, each with the name of its tier of proposals.
+fn rejected_proposals(connection: &Connection, tiers: &[TierRow]) -> CorpusResult<Vec<(String, AnnotationRow)>> {
+    let mut rejected = Vec::new();
+    for tier in tiers {
+        if let Some(name) = tier.name.strip_suffix(REJECTED_TIER_SUFFIX) {
+            let rows = stored_tiers::load_tier_annotation_rows(connection, tier.id)?;
+            let name = format!("{name}{PROPOSAL_TIER_SUFFIX}");
+            rejected.extend(rows.into_iter().map(|row| (name.clone(), row)));
+        }
+    }
+    Ok(rejected)
+}
+
+/// Returns whether an annotation lies over at least half of a proposal.
+fn overlaps_proposal(row: &AnnotationRow, proposal: &ProposedAnnotation) -> bool {
+    let shared = row.end_us.min(proposal.end_us) - row.start_us.max(proposal.start_us);
+    shared * 2 >= proposal.end_us - proposal.start_us
 }
 
 /// Returns the new tier for proposals about a subject.

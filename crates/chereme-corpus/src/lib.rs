@@ -142,7 +142,7 @@ pub use db::stored_columns::{AnnotationOrigin, RecordOrigin, ValueState};
 pub use db::stored_delete::RecordingBelongings;
 pub use db::stored_recordings::{MediaTrackRow, RecordingRow, SignerRow};
 pub use db::stored_rows::KeptSearch;
-pub use db::stored_tiers::{TierRow, TierShown, proposed_for};
+pub use db::stored_tiers::{TierRow, TierShown, is_detector_tier, proposed_for};
 pub use db::{OperationKind, OperationRow, SchemaUpgrade, on_waiting};
 pub use delete::{DeleteOptions, DeletedRecording, DeletionDependent, DeletionReport, DependentsPolicy};
 pub use details::{

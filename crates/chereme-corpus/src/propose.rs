@@ -20,12 +20,17 @@ use crate::contents::ProposalAcceptor;
 use crate::db::signs;
 use crate::db::stored_columns::AnnotationOrigin;
 use crate::db::stored_recordings;
-use crate::db::stored_tiers::{self, PROPOSAL_TIER_SUFFIX, proposed_for};
+use crate::db::stored_tiers::{
+    self, AnnotationRow, PROPOSAL_TIER_SUFFIX, REJECTED_TIER_SUFFIX, TierRow, is_detector_tier, proposed_for,
+};
 use crate::detect::{recordings_of_scope, span_overlaps_times};
 use crate::error::{CorpusError, CorpusResult};
 use crate::progress::{ProgressReceiver, ProgressUnit};
 use crate::search::{SearchHit, SearchOptions};
 use crate::words::effect::OperationEffect;
+
+/// The name of the detector that reads components from movement.
+const COMPONENT_DETECTOR: &str = "components";
 
 /// The most signs that a finding names.
 const MOST_UNREAD_NAMES: usize = 20;
@@ -134,7 +139,7 @@ pub fn accepting_tier<'a>(
         let timed = tier.stereotype.is_none_or(|stereotype| stereotype.is_alignable());
         let same_person =
             tier.participant.is_none() || proposals.participant.is_none() || tier.participant == proposals.participant;
-        alike && timed && same_person && proposed_for(&tier.name).is_none()
+        alike && timed && same_person && !is_detector_tier(&tier.name)
     })
     .filter(|tier| !rank(tier).0)
     .min_by_key(rank)
@@ -384,6 +389,7 @@ impl Corpus {
         if !changes.is_empty() {
             let options = AnnotateOptions {
                 origin: AnnotationOrigin::Detector,
+                detector: Some(COMPONENT_DETECTOR),
                 ..AnnotateOptions::default()
             };
             report.recordings = self
@@ -546,8 +552,8 @@ impl Corpus {
         Ok(accepting_tier(proposals, all.iter(), &acceptor).cloned())
     }
 
-    /// Accepts proposals unchanged: each becomes an annotation by the author of the corpus, with the confidence of the
-    /// detector, on the tier that the author has for it, or else on one without `(proposed)` in its name, which is added.
+    /// Accepts proposals unchanged: each becomes an annotation by the author of the corpus, with the name and the confidence
+    /// of the detector, on the tier that the author has for it, or else on one without `(proposed)` in its name, which is added.
     /// Tiers of proposals that are empty then are removed. All of it is one operation.
     ///
     /// # Errors
@@ -557,70 +563,100 @@ impl Corpus {
         annotations: &[i64],
         progress: &mut ProgressReceiver<'_>,
     ) -> CorpusResult<AnnotateReport> {
-        let connection = self.store.read_connection();
-        let (mut new, mut changes): (Vec<NewTier>, Vec<AnnotationChange>) = Default::default();
-        let mut emptied = BTreeSet::new();
+        let mut settled = SettledProposals::default();
         for &id in annotations {
-            let row = stored_tiers::load_annotation_row(connection, id)?;
-            let tier = stored_tiers::load_tier_row(connection, row.tier_id)?;
-            let Some(name) = proposed_for(&tier.name) else {
-                let text = format!("annotation:{id} on \"{}\" is no proposal", tier.name);
-                return Err(CorpusError::from_wrong_message(text)
-                    .with_advice("proposals lie on tiers whose names end in \"(proposed)\""));
-            };
-            emptied.insert(tier.id);
-            let recording = RowName::Number(tier.recording_id);
-            let all = stored_tiers::load_tier_rows(connection, tier.recording_id)?;
+            let (row, tier, name) = self.load_proposal(id)?;
+            let all = stored_tiers::load_tier_rows(self.store.read_connection(), tier.recording_id)?;
             let known_tier = self.find_accepting_tier(&tier)?;
             let to = match &known_tier {
                 Some(known) => known.name.clone(),
                 // The name belongs to a tier of another subject or annotator.
                 None if all.iter().any(|row| row.name == name) => format!("{name} (accepted)"),
-                None => name.to_owned(),
+                None => name,
             };
-            if known_tier.is_none()
-                && new
-                    .iter()
-                    .all(|new_tier| (&new_tier.recording, &new_tier.name) != (&recording, &to))
-            {
-                let mut added = NewTier::new(recording.clone(), to.clone(), tier.role.clone());
-                added.hand = tier.hand;
-                added.annotator =
-                    Some(self.proposal_acceptor(tier.recording_id)?.author).filter(|name| !name.is_empty());
-                added.participant.clone_from(&tier.participant);
-                new.push(added);
-            }
-            let time = |micros| Some(TableMoment::Time(RecordingInstant::from_micros(micros)));
-            changes.push(
-                AnnotationAction::Add {
-                    tier: TierRequestName::Of { recording, tier: to },
-                    start: time(row.start_us),
-                    end: time(row.end_us),
-                    parent: None,
-                    order: None,
-                    value: row.value,
-                    confidence: row.confidence,
-                }
-                .into(),
-            );
-            changes.push(
-                AnnotationAction::Remove {
-                    annotation: AnnotationName::Number(id),
-                }
-                .into(),
-            );
+            let author = self.proposal_acceptor(tier.recording_id)?.author;
+            let annotator = Some(author).filter(|name| !name.is_empty());
+            settled.move_proposal(row, &tier, to, known_tier.is_some(), annotator);
         }
-        let options = AnnotateOptions::default();
+        self.write_settled_proposals(settled, AnnotationOrigin::Human, progress)
+    }
+
+    /// Rejects proposals: each stays on a tier with `(rejected)` in its name as what a detector said, counts nowhere, and is not
+    /// proposed again. Tiers of proposals that are empty then are removed. All of it is one operation.
+    ///
+    /// # Errors
+    /// Fails if one of them is not a proposal, or the corpus cannot be written.
+    pub fn reject_proposals(
+        &mut self,
+        annotations: &[i64],
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<AnnotateReport> {
+        let mut settled = SettledProposals::default();
+        for &id in annotations {
+            let (row, tier, name) = self.load_proposal(id)?;
+            let connection = self.store.read_connection();
+            let to = format!("{name}{REJECTED_TIER_SUFFIX}");
+            let all = stored_tiers::load_tier_rows(connection, tier.recording_id)?;
+            let known_tier = all.iter().find(|row| row.name == to);
+            let earlier = match known_tier {
+                Some(known) => stored_tiers::annotations_near(connection, known.id, row.start_us, row.end_us)?,
+                None => Vec::new(),
+            };
+            let overlaps = |old: &AnnotationRow| old.start_us < row.end_us && row.start_us < old.end_us;
+            if earlier.iter().any(overlaps) {
+                // Something was rejected here before, and annotations of a tier do not overlap.
+                settled.remove_proposal(id, tier.id);
+            } else {
+                settled.move_proposal(row, &tier, to, known_tier.is_some(), None);
+            }
+        }
+        self.write_settled_proposals(settled, AnnotationOrigin::Detector, progress)
+    }
+
+    /// Returns a proposal with its tier, and the name of the tier that it is proposed for.
+    fn load_proposal(&self, id: i64) -> CorpusResult<(AnnotationRow, TierRow, String)> {
+        let connection = self.store.read_connection();
+        let row = stored_tiers::load_annotation_row(connection, id)?;
+        let tier = stored_tiers::load_tier_row(connection, row.tier_id)?;
+        match proposed_for(&tier.name).map(str::to_owned) {
+            Some(name) => Ok((row, tier, name)),
+            None => {
+                let text = format!("annotation:{id} on \"{}\" is no proposal", tier.name);
+                Err(CorpusError::from_wrong_message(text)
+                    .with_advice("proposals lie on tiers whose names end in \"(proposed)\""))
+            }
+        }
+    }
+
+    /// Writes accepted proposals as annotations of a person, and rejected ones as those of their detector.
+    fn write_settled_proposals(
+        &mut self,
+        settled: SettledProposals,
+        origin: AnnotationOrigin,
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<AnnotateReport> {
+        let options = AnnotateOptions {
+            origin,
+            ..AnnotateOptions::default()
+        };
         self.store.operation_with_progress(progress, |connection, progress| {
-            let report = write_tiers(connection, &new, &changes, &options, progress)?;
-            for tier in emptied {
+            let report = write_tiers(connection, &settled.tiers, &settled.changes, &options, progress)?;
+            for (place, source) in settled.sources {
+                if let Some(id) = report.annotations.get(place) {
+                    let mut row = stored_tiers::load_annotation_row(connection, *id)?;
+                    row.source = source;
+                    stored_tiers::update_annotation(connection, &row)?;
+                }
+            }
+            for tier in settled.emptied {
                 if stored_tiers::load_tier_annotation_rows(connection, tier)?.is_empty() {
                     stored_tiers::delete_tier(connection, tier)?;
                 }
             }
-            let effect = OperationEffect::Accept {
-                count: report.effect.count_removed(),
-                annotations: report.effect.clone(),
+            let (count, annotations) = (report.effect.count_removed(), report.effect.clone());
+            let effect = match origin {
+                AnnotationOrigin::Detector => OperationEffect::Reject { count, annotations },
+                _ => OperationEffect::Accept { count, annotations },
             };
             Ok((report, effect))
         })
@@ -638,27 +674,33 @@ impl Corpus {
                 recording: recording.clone(),
                 tier: name.clone(),
             };
-            let mut end = self.tier_end(&recording, &name)?;
-            if end.is_none() {
+            let stored = self.stored_tier_times(&recording, &name)?;
+            if stored.is_none() {
                 let role = TierRole::Component { component, feature };
                 let mut new = NewTier::new(recording, name, role);
                 new.hand = Some(AnnotatedHands::One(hand));
                 tiers.push(new);
             }
+            let mut taken = stored.unwrap_or_default();
             values.sort_by_key(|value| value.start_us);
             for value in values {
                 // Signs of two hands may overlap; annotations of one tier may not.
-                let start = value.start_us.max(end.unwrap_or(i64::MIN));
-                if start >= value.end_us {
+                let before = taken.iter().filter(|(start, _)| *start <= value.start_us);
+                let start = before.map(|(_, end)| *end).fold(value.start_us, i64::max);
+                let after = taken.iter().map(|(other_start, _)| *other_start);
+                let end = after
+                    .filter(|other| *other > value.start_us)
+                    .fold(value.end_us, i64::min);
+                if start >= end {
                     continue;
                 }
-                end = Some(value.end_us);
+                taken.push((start, end));
                 let time = |micros| Some(TableMoment::Time(RecordingInstant::from_micros(micros)));
                 changes.push(
                     AnnotationAction::Add {
                         tier: tier.clone(),
                         start: time(start),
-                        end: time(value.end_us),
+                        end: time(end),
                         parent: None,
                         order: None,
                         value: value.value,
@@ -671,9 +713,8 @@ impl Corpus {
         Ok((tiers, changes))
     }
 
-    /// Returns the end of the last annotation on a recording's tier, 0 if it has none; nothing if there is no such
-    /// tier.
-    fn tier_end(&self, recording: &RowName, tier: &str) -> CorpusResult<Option<i64>> {
+    /// Returns the times of the annotations on a recording's tier, if there is such a tier.
+    fn stored_tier_times(&self, recording: &RowName, tier: &str) -> CorpusResult<Option<Vec<(i64, i64)>>> {
         let connection = self.store.read_connection();
         let recording = crate::address::find_recording_by_name(connection, recording)?;
         let all = stored_tiers::load_tier_rows(connection, recording.id)?;
@@ -681,7 +722,59 @@ impl Corpus {
             return Ok(None);
         };
         let rows = stored_tiers::load_tier_annotation_rows(connection, tier.id)?;
-        Ok(Some(rows.iter().map(|row| row.end_us).max().unwrap_or(0)))
+        Ok(Some(rows.iter().map(|row| (row.start_us, row.end_us)).collect()))
+    }
+}
+
+/// Proposals on which a person decided: the changes that move or remove them.
+#[derive(Default)]
+struct SettledProposals {
+    tiers: Vec<NewTier>,
+    changes: Vec<AnnotationChange>,
+    /// The properties of added annotations, by the place of their change.
+    sources: Vec<(usize, Option<String>)>,
+    /// The tiers that lose proposals.
+    emptied: BTreeSet<i64>,
+}
+
+impl SettledProposals {
+    /// Moves a proposal to the tier of a name; a tier that is not `known` yet is added with the properties of the proposal's.
+    fn move_proposal(
+        &mut self,
+        row: AnnotationRow,
+        tier: &TierRow,
+        to: String,
+        is_known: bool,
+        annotator: Option<String>,
+    ) {
+        let recording = RowName::Number(tier.recording_id);
+        let is_new = |new: &NewTier| (&new.recording, &new.name) == (&recording, &to);
+        if !is_known && !self.tiers.iter().any(is_new) {
+            let mut added = NewTier::new(recording.clone(), to.clone(), tier.role.clone());
+            added.hand = tier.hand;
+            added.annotator = annotator;
+            added.participant.clone_from(&tier.participant);
+            self.tiers.push(added);
+        }
+        let time = |micros| Some(TableMoment::Time(RecordingInstant::from_micros(micros)));
+        self.sources.push((self.changes.len(), row.source));
+        let add = AnnotationAction::Add {
+            tier: TierRequestName::Of { recording, tier: to },
+            start: time(row.start_us),
+            end: time(row.end_us),
+            parent: None,
+            order: None,
+            value: row.value,
+            confidence: row.confidence,
+        };
+        self.changes.push(add.into());
+        self.remove_proposal(row.id, tier.id);
+    }
+
+    fn remove_proposal(&mut self, id: i64, tier: i64) {
+        let annotation = AnnotationName::Number(id);
+        self.changes.push(AnnotationAction::Remove { annotation }.into());
+        self.emptied.insert(tier);
     }
 }
 
@@ -844,5 +937,81 @@ mod tests {
         );
         let found = corpus.search_tokens("gloss=BOL right.configuration=*", &SearchOptions::default());
         assert_eq!(found.expect("found").total, 1);
+    }
+
+    #[test]
+    fn a_decided_proposal_keeps_its_detector_and_a_rejected_one_is_not_proposed_again() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut corpus = corpus_with_an_uncoded_take(folder.path());
+        let mut hear = ignore_progress_step;
+        let mut progress = ProgressReceiver::new(&mut hear);
+        let shapes = ProposalChoice {
+            scope: ProposeScope::All,
+            tiers: Vec::new(),
+            components: vec![SignComponent::Configuration],
+            least_confidence: None,
+        };
+        corpus
+            .propose_coding(SignComponent::Configuration, &mut progress)
+            .expect("proposed");
+        let proposals = corpus.find_proposals(&shapes).expect("found");
+        let row = |corpus: &Corpus, id: i64| {
+            stored_tiers::load_annotation_row(corpus.store.read_connection(), id).expect("an annotation")
+        };
+        let first = row(&corpus, proposals[0]);
+        let property = |row: &AnnotationRow, name: &str| {
+            let source: serde_json::Value =
+                serde_json::from_str(row.source.as_deref().expect("a source")).expect("JSON");
+            source[name].as_str().map(str::to_owned)
+        };
+        assert_eq!(property(&first, "detector").as_deref(), Some(COMPONENT_DETECTOR));
+        // Accepted, it is a person's with the detector beside it.
+        let accepted = corpus
+            .accept_proposals(&proposals[..1], &mut progress)
+            .expect("accepted");
+        let own = row(&corpus, accepted.annotations[0]);
+        assert_eq!(
+            (own.origin, own.confidence),
+            (AnnotationOrigin::Human, first.confidence)
+        );
+        assert_eq!(own.source, first.source);
+        corpus.undo_operation().expect("undone");
+        // Corrected, it says what was proposed.
+        let correction = AnnotationAction::Set {
+            annotation: AnnotationName::Number(proposals[0]),
+            start: None,
+            end: None,
+            value: Some("V".into()),
+        };
+        corpus
+            .annotate_corpus(&[correction.into()], &AnnotateOptions::default(), &mut progress)
+            .expect("corrected");
+        let corrected = row(&corpus, proposals[0]);
+        assert_eq!(
+            (corrected.origin, corrected.confidence),
+            (AnnotationOrigin::Human, None)
+        );
+        assert_eq!(property(&corrected, "proposed"), Some(first.value.clone()));
+        assert_eq!(property(&corrected, "detector").as_deref(), Some(COMPONENT_DETECTOR));
+        corpus.undo_operation().expect("undone");
+        // Rejected, it stays as what the detector said, and nowhere else.
+        let all = proposals.len();
+        corpus.reject_proposals(&proposals, &mut progress).expect("rejected");
+        assert!(corpus.find_proposals(&shapes).expect("found").is_empty());
+        let details = corpus
+            .token_details(&"BOL".parse().expect("an address"))
+            .expect("details");
+        let standings: Vec<_> = details.opinions.iter().map(|one| one.standing).collect();
+        assert!(!standings.is_empty() && standings.len() <= all, "{details:?}");
+        assert!(
+            standings.iter().all(|one| *one == crate::OpinionStanding::Rejected),
+            "{standings:?}"
+        );
+        let found = corpus.search_tokens("proposed:yes", &SearchOptions::default());
+        assert_eq!(found.map_or(0, |answer| answer.total), 0);
+        let again = corpus.propose_coding(SignComponent::Configuration, &mut progress);
+        assert_eq!(again.expect("asked again").annotations, 0);
+        corpus.undo_operation().expect("undone");
+        assert_eq!(corpus.find_proposals(&shapes).expect("found"), proposals);
     }
 }

@@ -13,7 +13,7 @@ use rusqlite::Connection;
 use crate::Corpus;
 use crate::db::lexicons;
 use crate::db::signs::{self, TokenRow, TokenValueRow};
-use crate::db::stored_columns::AnnotationOrigin;
+use crate::db::stored_columns::{AnnotationOrigin, OpinionStanding};
 use crate::db::stored_merge;
 use crate::db::stored_recordings::{self, RecordingRow, SignerRow};
 use crate::db::stored_search::search_answers;
@@ -188,8 +188,8 @@ struct CodedAnnotation {
     annotation: i64,
     tier: i64,
     annotator: Option<String>,
-    /// Whether a detector says so, and nobody has accepted it.
-    is_proposal: bool,
+    /// The standing of a detector's proposal that nobody has accepted.
+    proposal: Option<OpinionStanding>,
     inventory: Option<i64>,
     participant: Option<String>,
 }
@@ -283,6 +283,10 @@ impl AnnotationsByTime {
         if reading == ComponentReading::Unset {
             return;
         }
+        let standing = match tier.name.ends_with(stored_tiers::REJECTED_TIER_SUFFIX) {
+            true => OpinionStanding::Rejected,
+            false => OpinionStanding::Proposed,
+        };
         let hands: Vec<Option<HandRef>> = match tier.hand {
             // An annotation of both hands codes each of them.
             Some(AnnotatedHands::Both) => vec![Some(HandRef::Right), Some(HandRef::Left)],
@@ -305,7 +309,7 @@ impl AnnotationsByTime {
                 annotation: row.id,
                 tier: tier.id,
                 annotator: tier.annotator.clone(),
-                is_proposal: row.origin == AnnotationOrigin::Detector,
+                proposal: (row.origin == AnnotationOrigin::Detector).then_some(standing),
                 inventory: tier.inventory_id,
                 participant: tier.participant.clone(),
             });

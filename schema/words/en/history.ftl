@@ -20,6 +20,10 @@ history-accept = Proposed values accepted: { $count }, in { $recordings ->
     [1] { $recording }
    *[other] { $recordings } recordings
 }
+history-reject = Proposed values rejected: { $count }, in { $recordings ->
+    [1] { $recording }
+   *[other] { $recordings } recordings
+}
 history-adjudicate = Adjudicated on the tier { $tier }
 history-prefer-annotator = Preferred annotator: { $annotator }
 history-add-tier = Tier { $tier } added to { $recording }

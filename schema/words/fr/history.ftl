@@ -20,6 +20,10 @@ history-accept = Valeurs proposées acceptées : { $count }, dans { $recordings 
     [1] { $recording }
    *[other] { $recordings } enregistrements
 }
+history-reject = Valeurs proposées rejetées : { $count }, dans { $recordings ->
+    [1] { $recording }
+   *[other] { $recordings } enregistrements
+}
 history-adjudicate = Tranché sur l’acteur { $tier }
 history-prefer-annotator = Annotateur préféré : { $annotator }
 history-add-tier = Acteur { $tier } ajouté à { $recording }

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use chereme_corpus::{
-    AcceptanceResult, CorpusAddress, DetectOptions, ProposalChoice, ProposalResult, ProposeOptions, ProposeScope,
-    ProposedCoding,
+    AcceptanceResult, Corpus, CorpusAddress, DetectOptions, ProposalChoice, ProposalResult, ProposeOptions,
+    ProposeScope, ProposedCoding,
 };
 use chereme_sign::SignComponent;
 
@@ -23,21 +23,23 @@ use crate::output::{CommandOutput, with_progress_bar};
 /// With --detector no transcription runs; it is short for `detect --propose`.
 ///
 /// With --accept, proposals become your own codings on the tiers that you have for that component and hand; empty tiers of
-/// proposals are removed. Without numbers all are accepted, or those of a component, --for, --tier and --confidence.
+/// proposals are removed. Without numbers all are accepted, or those of a component, --for, --tier and --confidence. With
+/// --reject they stay on tiers such as "configuration dominant (rejected)", count nowhere and are not proposed again.
 ///
 /// `--json` gives "tokens" and "annotations", the numbers of those that were written, "unread", the number of tokens
 /// whose movement could not be transcribed, "recordings", the names of those with new annotations, "by_confidence", the
 /// numbers of annotations for each tenth of confidence, and "codings", the values, each with "token", "gloss", "field",
-/// "value", "start_us", "end_us", "confidence", "is_moving" if nothing is held, and "runner_up" in words of notation. With --accept it gives what `annotate` gives, and "left", the number
+/// "value", "start_us", "end_us", "confidence", "is_moving" if nothing is held, and "runner_up" in words of notation. With --accept or --reject it gives what `annotate` gives, and "left", the number
 /// of proposals for which there is no room. With --detector it gives what `detect` gives.
 #[derive(Debug, clap::Args)]
-#[command(after_help = "\
+#[command(group = clap::ArgGroup::new("decision").args(["accept", "reject"]), after_help = "\
 Examples:
   chereme propose mine.chereme configuration
   chereme propose mine.chereme --for recording:3
   chereme propose mine.chereme --detector signs --for recording:3
   chereme propose mine.chereme --accept 41 42
   chereme propose mine.chereme configuration --for recording:3 --accept --confidence 0.8
+  chereme propose mine.chereme --reject 43
   chereme search mine.chereme \"configuration=U proposed:yes\"    (finds proposed codings, too)
   chereme undo mine.chereme                      (takes all of them back)")]
 pub(crate) struct ProposeArgs {
@@ -54,11 +56,14 @@ pub(crate) struct ProposeArgs {
     /// Accept these proposals, by the numbers of their annotations, as codings of your own; without numbers all that the other options name
     #[arg(long, value_name = "NUMBER", conflicts_with = "detector", num_args = 0..)]
     accept: Option<Vec<i64>>,
-    /// Accept those of tiers with this name
-    #[arg(long, value_name = "NAME", requires = "accept")]
+    /// Reject these proposals, by the numbers of their annotations; without numbers all that the other options name
+    #[arg(long, value_name = "NUMBER", conflicts_with = "detector", num_args = 0..)]
+    reject: Option<Vec<i64>>,
+    /// Accept or reject those of tiers with this name
+    #[arg(long, value_name = "NAME", requires = "decision")]
     tier: Vec<String>,
-    /// Accept those with this confidence or more, from 0 to 1
-    #[arg(long, value_name = "NUMBER", requires = "accept")]
+    /// Accept or reject those with this confidence or more, from 0 to 1
+    #[arg(long, value_name = "NUMBER", requires = "decision")]
     confidence: Option<f64>,
 }
 
@@ -94,45 +99,67 @@ fn print_proposed_codings(codings: &[ProposedCoding], output: &mut CommandOutput
     )
 }
 
+/// Accepts or rejects the proposals of these numbers, or without numbers those that the other options name.
+fn settle_proposals(
+    corpus: &mut Corpus,
+    args: &ProposeArgs,
+    scope: ProposeScope,
+    numbers: &[i64],
+    output: &mut CommandOutput,
+) -> Result<()> {
+    // Numbers and conditions could contradict each other.
+    let is_narrowed = args.component.is_some() || args.only.is_some() || !args.tier.is_empty();
+    if !numbers.is_empty() && (is_narrowed || args.confidence.is_some()) {
+        anyhow::bail!(
+            "numbers of annotations name proposals already: leave out the component, --for, --tier and --confidence"
+        );
+    }
+    let choice = ProposalChoice {
+        scope,
+        tiers: args.tier.clone(),
+        components: args.component.into_iter().collect(),
+        least_confidence: args.confidence,
+    };
+    if args.reject.is_some() {
+        let numbers = match numbers {
+            [] => corpus.find_proposals(&choice)?,
+            numbers => numbers.to_vec(),
+        };
+        let report = with_progress_bar(|progress| corpus.reject_proposals(&numbers, progress))?;
+        output.filled_line(
+            "{n} rejected",
+            &[&output.format_counted_noun(numbers.len() as u64, "annotations")],
+        )?;
+        return output.set_json_document(AcceptanceResult { report, left: 0 });
+    }
+    let accepted = match numbers {
+        [] => with_progress_bar(|progress| corpus.accept_chosen_proposals(&choice, progress))?,
+        numbers => AcceptanceResult {
+            report: with_progress_bar(|progress| corpus.accept_proposals(numbers, progress))?,
+            left: 0,
+        },
+    };
+    output.filled_line(
+        "{n} accepted",
+        &[&output.format_counted_noun(accepted.report.added, "annotations")],
+    )?;
+    if accepted.left > 0 {
+        output.filled_line(
+            "left, because something else lies in their place: {n}",
+            &[&output.format_counted_noun(accepted.left, "annotations")],
+        )?;
+    }
+    output.set_json_document(accepted)
+}
+
 pub(super) fn run(cli: &CommandLine, args: &ProposeArgs, output: &mut CommandOutput) -> Result<()> {
     let mut corpus = cli.open_cli_corpus(&args.corpus)?;
     let scope = match &args.only {
         None => ProposeScope::All,
         Some(only) => corpus.propose_scope(&only.parse::<CorpusAddress>()?)?,
     };
-    if let Some(numbers) = &args.accept {
-        // Numbers and conditions could contradict each other.
-        let is_narrowed = args.component.is_some() || args.only.is_some() || !args.tier.is_empty();
-        if !numbers.is_empty() && (is_narrowed || args.confidence.is_some()) {
-            anyhow::bail!(
-                "numbers of annotations name proposals already: leave out the component, --for, --tier and --confidence"
-            );
-        }
-        let accepted = if numbers.is_empty() {
-            let choice = ProposalChoice {
-                scope,
-                tiers: args.tier.clone(),
-                components: args.component.into_iter().collect(),
-                least_confidence: args.confidence,
-            };
-            with_progress_bar(|progress| corpus.accept_chosen_proposals(&choice, progress))?
-        } else {
-            AcceptanceResult {
-                report: with_progress_bar(|progress| corpus.accept_proposals(numbers, progress))?,
-                left: 0,
-            }
-        };
-        output.filled_line(
-            "{n} accepted",
-            &[&output.format_counted_noun(accepted.report.added, "annotations")],
-        )?;
-        if accepted.left > 0 {
-            output.filled_line(
-                "left, because something else lies in their place: {n}",
-                &[&output.format_counted_noun(accepted.left, "annotations")],
-            )?;
-        }
-        return output.set_json_document(accepted);
+    if let Some(numbers) = args.accept.as_ref().or(args.reject.as_ref()) {
+        return settle_proposals(&mut corpus, args, scope, numbers, output);
     }
     if let Some(detector) = &args.detector {
         // An older spelling of `detect --propose`.

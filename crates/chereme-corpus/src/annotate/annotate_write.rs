@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use chereme_motion::TimeSpan;
 use chereme_sign::tier::{AnnotationId, TierAnnotation, TierEdit};
 use rusqlite::Connection;
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use super::scope::enclosing_span;
 use super::{annotation_row_id, span_of};
@@ -17,6 +17,8 @@ use crate::error::CorpusResult;
 /// The source of a change.
 pub(super) struct EditSource<'a> {
     pub(super) origin: AnnotationOrigin,
+    /// The detector that found added annotations.
+    pub(super) detector: Option<&'a str>,
     pub(super) confidence: Option<f64>,
     /// The annotations named by the change, without those that merely follow.
     pub(super) named: &'a [i64],
@@ -91,6 +93,7 @@ fn added_annotation_row(new: &TierAnnotation, parent_id: Option<i64>, says: &Edi
     let row = AnnotationRow {
         origin: says.origin,
         confidence: says.confidence,
+        source: says.detector.map(|name| detector_source_document(name).to_string()),
         ..AnnotationRow::default()
     };
     place_annotation_row(row, new, parent_id)
@@ -109,14 +112,33 @@ fn changed_annotation_row(
         row.file_start_ms = None;
         row.file_end_ms = None;
     }
-    if (moved || renamed) && says.named.contains(&old.id) {
-        row.origin = says.origin;
-        row.confidence = says.confidence;
-    }
     if moved || renamed {
         row.source = updated_source_properties(old.source.as_deref(), moved, renamed);
     }
+    if (moved || renamed) && says.named.contains(&old.id) {
+        let is_corrected = old.origin == AnnotationOrigin::Detector && says.origin != old.origin;
+        // A person who only moves a proposal takes its value over, with the confidence of the detector.
+        row.confidence = says.confidence.or(old.confidence.filter(|_| is_corrected && !renamed));
+        if is_corrected && renamed {
+            row.source = Some(corrected_proposal_source(old, row.source));
+        }
+        row.origin = says.origin;
+    }
     row
+}
+
+/// Returns the properties of an annotation that a detector found: the name of the detector, with the version of the program.
+fn detector_source_document(name: &str) -> Value {
+    json!({ "detector": name, "version": env!("CARGO_PKG_VERSION") })
+}
+
+/// Returns the properties of a proposal to which a person gave another value: those that it has, and what was proposed.
+fn corrected_proposal_source(old: &AnnotationRow, source: Option<String>) -> String {
+    let properties = source.and_then(|text| serde_json::from_str(&text).ok());
+    let mut properties: Value = properties.unwrap_or_else(|| json!({}));
+    properties["proposed"] = Value::from(old.value.clone());
+    properties["confidence"] = Value::from(old.confidence);
+    properties.to_string()
 }
 
 fn place_annotation_row(row: AnnotationRow, new: &TierAnnotation, parent_id: Option<i64>) -> AnnotationRow {

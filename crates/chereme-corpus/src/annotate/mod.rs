@@ -155,6 +155,8 @@ pub struct AnnotateOptions {
     pub snap: bool,
     /// The source of the annotations.
     pub origin: AnnotationOrigin,
+    /// The detector that found added annotations, whoever writes them.
+    pub detector: Option<&'static str>,
     /// The treatment of annotations in the way of an added or moved one; in normal mode the change is refused.
     pub mode: NeighbourMode,
     /// The unit of bare numbers in a table whose titles name no unit; seconds by default.
@@ -546,6 +548,7 @@ impl<'a> AnnotationChangeRun<'a> {
         };
         let says = annotate_write::EditSource {
             origin: self.options.origin,
+            detector: self.options.detector,
             confidence,
             named: &named,
         };

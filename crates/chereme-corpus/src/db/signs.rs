@@ -9,7 +9,8 @@ use rusqlite::{Connection, OptionalExtension, Row, params};
 use serde::Serialize;
 
 use super::stored_columns::{
-    NamedColumn, RecordOrigin, ValueState, phase_name, phase_place, read_phase_columns, read_word_column, word_or_null,
+    NamedColumn, OpinionStanding, RecordOrigin, ValueState, phase_name, phase_place, read_phase_columns,
+    read_word_column, word_or_null,
 };
 use super::stored_tiers;
 use crate::db::cached_sql::CachedSql;
@@ -77,6 +78,8 @@ pub(crate) struct TokenValueRow {
     pub inventory_id: Option<i64>,
     /// The annotation that gives the value.
     pub annotation_id: Option<i64>,
+    /// Why the value of the annotation does not count, unless it does.
+    pub standing: Option<OpinionStanding>,
 }
 
 impl TokenValueRow {
@@ -91,6 +94,7 @@ impl TokenValueRow {
             value: reading.reading_value().map(str::to_owned),
             inventory_id: None,
             annotation_id: None,
+            standing: None,
         }
     }
 }
@@ -414,7 +418,7 @@ pub(crate) fn set_values(connection: &Connection, token: i64, rows: &[TokenValue
     connection.change_rows("DELETE FROM token_value WHERE token_id = ?1", [token])?;
     let mut statement = connection.prepare_cached(
         "INSERT INTO token_value (token_id, hand, component, feature, phase, position, state, value,
-             inventory_id, annotation_id) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10)",
+             inventory_id, annotation_id, standing) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11)",
     )?;
     for row in rows {
         statement.execute(params![
@@ -427,7 +431,8 @@ pub(crate) fn set_values(connection: &Connection, token: i64, rows: &[TokenValue
             NamedColumn(row.state),
             row.value,
             row.inventory_id,
-            row.annotation_id
+            row.annotation_id,
+            row.standing.map(NamedColumn)
         ])?;
     }
     Ok(())
@@ -442,13 +447,12 @@ pub(crate) fn values_of(connection: &Connection, tokens: &[i64]) -> CorpusResult
     let mut values: BTreeMap<i64, Vec<TokenValueRow>> = BTreeMap::new();
     let mut rows = statement.query([json_list(tokens)])?;
     while let Some(row) = rows.next()? {
-        values.entry(row.get(9)?).or_default().push(value_row(row)?);
+        values.entry(row.get(10)?).or_default().push(value_row(row)?);
     }
     Ok(values)
 }
 
-/// Distinguishes values that count from opinions: an opinion is *unset*, and its annotation holds what a detector proposes or what is
-/// in dispute.
+/// Distinguishes values that count from opinions: an opinion is *unset*, and its annotation holds what does not count.
 pub(crate) const IS_OPINION_SQL: &str = "state = 'unset' AND annotation_id IS NOT NULL";
 
 /// Returns the values of a token that count, in the order in which they were written.
@@ -464,11 +468,12 @@ pub(crate) fn is_opinion(connection: &Connection, annotation: i64) -> CorpusResu
     connection.has_rows(&sql, [annotation])
 }
 
-/// Returns the annotations that say something of a token which does not count.
+/// Returns the standings of annotations that say something of a token which does not count; that of a row of an earlier
+/// program is unknown.
 #[cfg(feature = "parquet")]
-pub(crate) fn opinion_annotations(connection: &Connection) -> CorpusResult<BTreeSet<i64>> {
-    let sql = format!("SELECT annotation_id FROM token_value WHERE {IS_OPINION_SQL}");
-    connection.read_values(&sql, [])
+pub(crate) fn opinion_standings(connection: &Connection) -> CorpusResult<BTreeMap<i64, Option<OpinionStanding>>> {
+    let sql = format!("SELECT annotation_id, standing FROM token_value WHERE {IS_OPINION_SQL}");
+    connection.read_rows(&sql, [], |row| Ok((row.get(0)?, word_or_null(row, 1)?)))
 }
 
 /// Returns the tokens with an opinion about a component.
@@ -491,7 +496,7 @@ pub(crate) fn load_token_opinions(connection: &Connection, token: i64) -> Corpus
 }
 
 const SELECT_TOKEN_VALUES_SQL: &str = "SELECT hand, component, feature, phase, position, state, value, inventory_id,
-    annotation_id";
+    annotation_id, standing";
 
 fn value_row(row: &Row<'_>) -> rusqlite::Result<TokenValueRow> {
     Ok(TokenValueRow {
@@ -503,6 +508,7 @@ fn value_row(row: &Row<'_>) -> rusqlite::Result<TokenValueRow> {
         value: row.get(6)?,
         inventory_id: row.get(7)?,
         annotation_id: row.get(8)?,
+        standing: word_or_null(row, 9)?,
     })
 }
 

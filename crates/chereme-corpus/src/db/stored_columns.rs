@@ -287,6 +287,50 @@ impl ValueState {
     }
 }
 
+/// Why something that is said of a token does not count.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum OpinionStanding {
+    /// A detector proposes it, and nobody has accepted it.
+    Proposed,
+    /// A detector proposed it, and a person rejected it.
+    Rejected,
+    /// Annotators say different things, and nothing decides between them.
+    Disputed,
+    /// It is the value that counts, said by one more annotator.
+    Agreed,
+    /// The value of an adjudication or of the preferred annotator counts in its place.
+    Replaced,
+}
+
+impl OpinionStanding {
+    /// Returns the name in queries and answers.
+    #[must_use]
+    pub fn standing_name(self) -> &'static str {
+        match self {
+            Self::Proposed => "proposed",
+            Self::Rejected => "rejected",
+            Self::Disputed => "disputed",
+            Self::Agreed => "agreed",
+            Self::Replaced => "replaced",
+        }
+    }
+}
+
+impl NamedValue for OpinionStanding {
+    const ALL_NAMED_VALUES: &'static [Self] = &[
+        Self::Proposed,
+        Self::Rejected,
+        Self::Disputed,
+        Self::Agreed,
+        Self::Replaced,
+    ];
+
+    fn stored_value_name(self) -> &'static str {
+        self.standing_name()
+    }
+}
+
 impl NamedValue for RecordOrigin {
     const ALL_NAMED_VALUES: &'static [Self] = &[Self::Captured, Self::Made, Self::Generated, Self::Lexicon];
 

@@ -63,10 +63,19 @@ pub struct TierShown {
 /// The suffix of the names of tiers with proposals.
 pub(crate) const PROPOSAL_TIER_SUFFIX: &str = " (proposed)";
 
+/// The suffix of the names of tiers with proposals that a person rejected.
+pub(crate) const REJECTED_TIER_SUFFIX: &str = " (rejected)";
+
 /// Returns the name of the tier that accepted values from a tier with proposals are moved to; `None` for other tiers.
 #[must_use]
 pub fn proposed_for(tier: &str) -> Option<&str> {
     tier.strip_suffix(PROPOSAL_TIER_SUFFIX)
+}
+
+/// Returns whether a tier of this name holds what a detector says, whether nobody has decided on it or a person rejected it.
+#[must_use]
+pub fn is_detector_tier(tier: &str) -> bool {
+    proposed_for(tier).is_some() || tier.ends_with(REJECTED_TIER_SUFFIX)
 }
 
 impl TierRow {
@@ -92,7 +101,7 @@ impl TierRow {
 
     /// Returns whether the tier holds glosses of signs, rather than proposals for some.
     pub(crate) fn holds_glosses(&self) -> bool {
-        self.role == TierRole::Gloss && proposed_for(&self.name).is_none()
+        self.role == TierRole::Gloss && !is_detector_tier(&self.name)
     }
 
     /// Returns whether the tier divides movement into phases, which belong to a stretch of signing rather than to a

@@ -185,6 +185,7 @@ impl Corpus {
         if !changes.is_empty() {
             let options = AnnotateOptions {
                 origin: AnnotationOrigin::Detector,
+                detector: Some("milestones"),
                 ..AnnotateOptions::default()
             };
             self.annotate_corpus(&changes, &options, progress)?;

@@ -643,6 +643,7 @@ fn value_row(coding: &ComponentCoding, inventories: &BTreeMap<InventoryKey, Know
         value,
         inventory_id: known_inventory.filter(|_| is_value).map(|known| known.row),
         annotation_id: None,
+        standing: None,
     }
 }
 

@@ -350,14 +350,8 @@ pub(crate) fn collect_search_hits(
         search_answers::coded_of_token(ask.connection, token, |row| add_value(&mut components, &row))?;
         let mut opinions = Vec::new();
         if ask.opinions.get() || ask.asks_sources.get() {
-            search_answers::visit_token_opinions(ask.connection, token, |row, opinion| {
-                opinions.push(ValueOpinion {
-                    field: field_of_row(row),
-                    value: opinion.state.missing_text().unwrap_or(&opinion.value).to_owned(),
-                    standing: opinion.standing,
-                    by: opinion.by,
-                    confidence: opinion.confidence,
-                });
+            search_answers::visit_token_opinions(ask.connection, token, |row, standing, opinion| {
+                opinions.push(ValueOpinion::from_annotation(field_of_row(row), standing, opinion));
             })?;
         }
         let order_rows = attributes.get(&token).into_iter().flatten();

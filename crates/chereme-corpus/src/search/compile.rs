@@ -443,10 +443,14 @@ fn plan_marked_property(
 
 /// Fails if a name is that of no annotator.
 pub(super) fn check_annotator(ask: &QueryContext<'_>, wish: &RequestedName<'_>) -> QueryResult<()> {
-    let names = search_answers::annotator_names(ask.connection)?;
-    let all_names = names.into_iter().chain([DETECTOR_NAME.to_owned()]);
-    let mut known_names = all_names.clone();
-    match !wish.literal || known_names.any(|name| wish.is_requested_name(&name)) {
+    let mut all_names = search_answers::annotator_names(ask.connection)?;
+    all_names.extend(
+        search_answers::annotator_aliases(ask.connection)?
+            .into_values()
+            .flatten(),
+    );
+    all_names.push(DETECTOR_NAME.to_owned());
+    match !wish.literal || all_names.iter().any(|name| wish.is_requested_name(name)) {
         true => Ok(()),
         false => Err(wish.unknown_name_failure("annotator", all_names)),
     }
@@ -454,7 +458,10 @@ pub(super) fn check_annotator(ask: &QueryContext<'_>, wish: &RequestedName<'_>) 
 
 /// Returns the plan for the tokens with values by annotators or detectors.
 fn plan_annotators(ask: &QueryContext<'_>, is_meant: &dyn Fn(&str) -> bool) -> QueryResult<QueryPlan> {
-    let tokens = search_answers::tokens_by_annotator(ask.connection, is_meant)?;
+    let aliases = search_answers::annotator_aliases(ask.connection)?;
+    let is_any_meant =
+        |name: &str| is_meant(name) || aliases.get(name).into_iter().flatten().any(|name| is_meant(name));
+    let tokens = search_answers::tokens_by_annotator(ask.connection, &is_any_meant)?;
     let mut plans = vec![QueryPlan::Index(IndexProbe::Rows(RowField::Token, tokens))];
     if is_meant(DETECTOR_NAME) {
         plans.push(plan_has_property(ask, WholeTokenProperty::Proposed)?);

@@ -45,7 +45,7 @@ use crate::error::{CorpusError, CorpusResult, WrongQuery};
 use crate::forms::FormSelection;
 use crate::progress::{ProgressReceiver, ProgressStep, ProgressUnit};
 
-pub use crate::db::stored_search::search_answers::OpinionStanding;
+pub use crate::db::stored_columns::OpinionStanding;
 use answer::DocumentRanks;
 pub use answer::{HitOrder, SearchAnswer, SearchHit};
 use compile::{QueryContext, QueryFailure, QueryResult};

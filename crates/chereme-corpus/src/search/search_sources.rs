@@ -1,5 +1,6 @@
 //! Conditions on who says a value: `configuration=U{by=anna confidence>0.8}`.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use chereme_sign::query::{AttributeTest, QueryTest, TestSubject, ValueComparison, WantedValue, WholeTokenProperty};
@@ -10,7 +11,8 @@ use super::compile::{QueryContext, QueryResult, RequestedName, check_annotator};
 use super::probe::{IndexProbe, RowField};
 use super::search_component::ComponentTest;
 use super::search_plan::QueryPlan;
-use crate::db::stored_search::search_answers::{self, OpinionStanding, SaidValue};
+use crate::db::stored_columns::OpinionStanding;
+use crate::db::stored_search::search_answers::{self, SaidValue};
 use crate::db::stored_search::search_terms;
 
 /// Returns the plan for tokens with a passing value from one of the sources asked for, whether that value counts or not.
@@ -39,6 +41,7 @@ pub(super) fn plan_said_value(
         names.iter().try_for_each(|name| check_annotator(ask, name))?;
         conditions.push((source, names));
     }
+    let aliases = search_answers::annotator_aliases(ask.connection)?;
     let hands = search_terms::hands_of(field.hand);
     let mut tokens = Vec::new();
     search_answers::visit_said_values(ask.connection, field.component.component_name(), |said| {
@@ -49,7 +52,7 @@ pub(super) fn plan_said_value(
             && search_terms::phase_counts(field.phase, &search_terms::phase_code(coded.phase))
             && conditions
                 .iter()
-                .all(|(source, names)| accepts_source(source, names, said));
+                .all(|(source, names)| accepts_source(source, names, &aliases, said));
         if is_meant {
             let reading = search_terms::reading_from_state(coded.state, coded.value);
             let folded = fold_text(coded.value.unwrap_or_default());
@@ -65,22 +68,31 @@ pub(super) fn plan_said_value(
 }
 
 /// Returns whether a value comes from the source that a condition, of these names, asks for.
-fn accepts_source(source: &QueryTest, names: &[RequestedName<'_>], said: &SaidValue<'_>) -> bool {
+fn accepts_source(
+    source: &QueryTest,
+    names: &[RequestedName<'_>],
+    aliases: &BTreeMap<String, Vec<String>>,
+    said: &SaidValue<'_>,
+) -> bool {
     match &source.what {
         TestSubject::Attribute(_, wanted @ AttributeTest::Number(..)) => said
             .confidence
             .is_some_and(|number| wanted.accepts_attribute_number(number)),
         TestSubject::Property(WholeTokenProperty::By, wanted) => {
             let reading = said.by.map_or(ComponentReading::Unset, ComponentReading::from);
-            let is_named = |name: &str| names.iter().any(|wanted| wanted.is_requested_name(name));
+            let is_named = |name: &str| {
+                let other_names = aliases.get(name).into_iter().flatten().map(String::as_str);
+                let mut all = std::iter::once(name).chain(other_names);
+                all.any(|name| names.iter().any(|wanted| wanted.is_requested_name(name)))
+            };
             wanted.comparison_accepts_reading(&reading, |name, _| is_named(name))
         }
         TestSubject::Property(property, wanted) => {
-            let standing = match property {
+            let asked = match property {
                 WholeTokenProperty::Proposed => OpinionStanding::Proposed,
                 _ => OpinionStanding::Disputed,
             };
-            let word = if said.standing == Some(standing) { "yes" } else { "no" };
+            let word = if said.standing == Some(asked) { "yes" } else { "no" };
             wanted.comparison_accepts_reading(
                 &ComponentReading::from(word),
                 |word, wanted| matches!(wanted, WantedValue::Named(name) if name.as_literal() == Some(word)),

@@ -1,8 +1,9 @@
 //! The one reading of a token that counts, of all that annotators and detectors say.
 //!
 //! For each component and hand the annotations of one annotator are one reading. That of the adjudicated tier counts; else
-//! that of the corpus's preferred annotator; else, phase by phase, the value on which all agree. Disputed
-//! values and proposals of detectors do not count; the token keeps both as opinions.
+//! that of the corpus's preferred annotator; else, phase by phase, the value on which all agree. Everything else does not
+//! count; the token keeps it as opinions: proposals of detectors, disputed values, and what others say of a value
+//! that counts.
 
 use std::collections::BTreeMap;
 
@@ -13,6 +14,7 @@ use chereme_sign::{ComponentField, HandRef, SignComponent};
 use super::CodedAnnotation;
 use crate::db::people::ADJUDICATION_ANNOTATOR;
 use crate::db::signs::TokenValueRow;
+use crate::db::stored_columns::OpinionStanding;
 
 /// A gloss and what was annotated during it.
 pub(super) struct AnnotatedGloss<'a> {
@@ -37,6 +39,9 @@ struct AnnotatorReading<'a> {
 /// A field with its phase, and the annotation that gives its value.
 type PhasedReading<'a> = (ComponentField, &'a CodedAnnotation);
 
+/// A field with its phase, the annotation that would give its value, and the reason why it does not.
+type StandingReading<'a> = (ComponentField, &'a CodedAnnotation, OpinionStanding);
+
 impl<'a> AnnotatedGloss<'a> {
     /// Returns the values that count, by field and time, and after them the opinions.
     pub(super) fn counted_token_values(&self) -> Vec<TokenValueRow> {
@@ -45,20 +50,17 @@ impl<'a> AnnotatedGloss<'a> {
             let (mut proposed, mut coded) = (Vec::new(), Vec::new());
             for tier in tiers.into_values() {
                 // A person may have corrected some proposals of a tier and left the others.
-                let (proposals, codings): (Vec<_>, Vec<_>) = tier.into_iter().partition(|one| one.is_proposal);
+                let (proposals, codings): (Vec<_>, Vec<_>) = tier.into_iter().partition(|one| one.proposal.is_some());
                 proposed.extend(Some(proposals).filter(|some| !some.is_empty()));
                 coded.extend(Some(codings).filter(|some| !some.is_empty()));
             }
             let readings = merge_tiers_of_annotators(coded);
-            let (counting, disputed) = self.split_disputed(&readings);
+            let (counting, weighed) = self.split_counting(&readings);
             counted.extend(counting.iter().map(|(field, source)| counted_row(field, source)));
             let proposals = proposed.iter().flat_map(|tier| self.phased_readings(tier));
-            opinions.extend(
-                disputed
-                    .into_iter()
-                    .chain(proposals)
-                    .map(|(field, source)| opinion_row(&field, source)),
-            );
+            let proposals = proposals.filter_map(|(field, source)| Some((field, source, source.proposal?)));
+            let all = weighed.into_iter().chain(proposals);
+            opinions.extend(all.map(|(field, source, standing)| opinion_row(&field, source, standing)));
         }
         counted.extend(opinions);
         counted
@@ -82,25 +84,33 @@ impl<'a> AnnotatedGloss<'a> {
         fields
     }
 
-    /// Returns the readings that count, and those that are in dispute.
-    fn split_disputed(&self, readings: &[AnnotatorReading<'a>]) -> (Vec<PhasedReading<'a>>, Vec<PhasedReading<'a>>) {
+    /// Returns the readings that count, and the others with the reason why they do not.
+    fn split_counting(&self, readings: &[AnnotatorReading<'a>]) -> (Vec<PhasedReading<'a>>, Vec<StandingReading<'a>>) {
         let by = |annotator: Option<&str>| {
-            let mut own = readings
-                .iter()
-                .filter(|reading| annotator.is_some() && reading.annotator == annotator);
-            own.next()
+            let is_own = |reading: &AnnotatorReading<'_>| annotator.is_some() && reading.annotator == annotator;
+            readings.iter().position(is_own)
         };
         // An adjudication was made to settle what the annotators dispute.
         let chosen = by(Some(ADJUDICATION_ANNOTATOR)).or_else(|| by(self.preferred));
-        let standing = match chosen {
-            Some(chosen) => std::slice::from_ref(chosen),
-            None => readings,
-        };
-        let phased: Vec<Vec<PhasedReading<'a>>> = standing
-            .iter()
-            .map(|reading| self.phased_readings(&reading.coded))
-            .filter(|phased| !phased.is_empty())
-            .collect();
+        let phase_readings = |reading: &AnnotatorReading<'a>| self.phased_readings(&reading.coded);
+        let mut phased: Vec<Vec<PhasedReading<'a>>> = readings.iter().map(phase_readings).collect();
+        if let Some(chosen) = chosen {
+            let counting = phased.remove(chosen);
+            let others = phased.into_iter().flatten();
+            let weighed = others.map(|(field, source)| {
+                let is_same = |own: &PhasedReading<'_>| own.0 == field && own.1.span.reading == source.span.reading;
+                let agrees = counting.iter().any(is_same);
+                let standing = if agrees {
+                    OpinionStanding::Agreed
+                } else {
+                    OpinionStanding::Replaced
+                };
+                (field, source, standing)
+            });
+            let weighed = weighed.collect();
+            return (counting, weighed);
+        }
+        phased.retain(|reading| !reading.is_empty());
         let Some((first, others)) = phased.split_first() else {
             return Default::default();
         };
@@ -108,20 +118,23 @@ impl<'a> AnnotatedGloss<'a> {
             other.len() == first.len() && other.iter().zip(first).all(|(one, two)| one.0 == two.0)
         };
         // Readings with other phases cannot be compared phase by phase.
-        let alike = others.iter().all(same_phases);
-        let (mut counting, mut disputed) = (Vec::new(), Vec::new());
+        if !others.iter().all(same_phases) {
+            let disputed = phased.into_iter().flatten();
+            let disputed = disputed.map(|(field, source)| (field, source, OpinionStanding::Disputed));
+            return (Vec::new(), disputed.collect());
+        }
+        let (mut counting, mut weighed) = (Vec::new(), Vec::new());
         for (place, (field, source)) in first.iter().enumerate() {
-            let agrees = |other: &Vec<PhasedReading<'_>>| other[place].1.span.reading == source.span.reading;
-            if alike && others.iter().all(agrees) {
-                counting.push((field.clone(), *source));
-            } else if alike {
-                disputed.extend(phased.iter().map(|reading| reading[place].clone()));
-            }
+            let said = others.iter().map(|other| other[place].1);
+            let (standing, own) = match said.clone().all(|other| other.span.reading == source.span.reading) {
+                true => (OpinionStanding::Agreed, None),
+                false => (OpinionStanding::Disputed, Some(*source)),
+            };
+            counting.extend(own.is_none().then(|| (field.clone(), *source)));
+            let opinions = own.into_iter().chain(said);
+            weighed.extend(opinions.map(|source| (field.clone(), source, standing)));
         }
-        if !alike {
-            disputed = phased.into_iter().flatten().collect();
-        }
-        (counting, disputed)
+        (counting, weighed)
     }
 
     fn phased_readings(&self, coded: &[&'a CodedAnnotation]) -> Vec<PhasedReading<'a>> {
@@ -173,8 +186,9 @@ fn counted_row(field: &ComponentField, source: &CodedAnnotation) -> TokenValueRo
 }
 
 /// Returns the row of an opinion: the field has no value from it, and its annotation says what it would be.
-fn opinion_row(field: &ComponentField, source: &CodedAnnotation) -> TokenValueRow {
+fn opinion_row(field: &ComponentField, source: &CodedAnnotation, standing: OpinionStanding) -> TokenValueRow {
     TokenValueRow {
+        standing: Some(standing),
         inventory_id: source.inventory,
         annotation_id: Some(source.annotation),
         ..TokenValueRow::from_field_reading(field, &chereme_sign::ComponentReading::Unset)

@@ -53,6 +53,12 @@ pub enum OperationEffect {
         #[serde(flatten)]
         annotations: AnnotationEffect,
     },
+    /// Proposed values were rejected.
+    Reject {
+        count: u64,
+        #[serde(flatten)]
+        annotations: AnnotationEffect,
+    },
     /// A third tier was made of the tiers of two annotators.
     Adjudicate { tier: String },
     /// The readings of an annotator count before those of others; or, without a name, those of nobody.
@@ -323,12 +329,13 @@ impl OperationEffect {
             Self::Import { count: 1, .. } => "{first}",
             Self::Import { .. } => "{count} files from {first} to {last}",
             Self::Recombine { .. } | Self::RecombineAgain { .. } => "{gloss} = {recipe}",
-            Self::Annotate(annotations) | Self::Propose(annotations) | Self::Accept { annotations, .. } => {
-                match annotations.recordings {
-                    1 => "{changes} in {recording}",
-                    _ => "{changes} in {recordings} recordings",
-                }
-            }
+            Self::Annotate(annotations)
+            | Self::Propose(annotations)
+            | Self::Accept { annotations, .. }
+            | Self::Reject { annotations, .. } => match annotations.recordings {
+                1 => "{changes} in {recording}",
+                _ => "{changes} in {recordings} recordings",
+            },
             Self::Adjudicate { .. } => "{tier}",
             Self::PreferAnnotator { .. } => "{annotator}",
             Self::AddTier { .. } => "{quoted tier} to {recording}",

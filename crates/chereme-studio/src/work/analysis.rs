@@ -50,6 +50,14 @@ pub(crate) fn accept_proposals_job(annotations: Vec<i64>) -> CorpusJob {
     })
 }
 
+/// Rejects these proposals.
+pub(crate) fn reject_proposals_job(annotations: Vec<i64>) -> CorpusJob {
+    CorpusJob::new(JobAbout::EDIT_JOB_ABOUT, move |corpus, progress| {
+        let report = corpus.reject_proposals(&annotations, progress);
+        report.map(WorkOutcome::Annotated)
+    })
+}
+
 /// Compares the keys of a recording with those that its phones predict in the named code.
 pub(crate) fn cue_slips(recording: i64, code: String) -> CorpusJob {
     CorpusJob::new(JobAbout::ASK_JOB_ABOUT, move |corpus, _| {

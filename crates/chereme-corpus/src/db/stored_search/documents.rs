@@ -8,10 +8,10 @@ use chereme_sign::tier as sign_tier;
 use rusqlite::fallible_streaming_iterator::FallibleStreamingIterator;
 use rusqlite::{Connection, OptionalExtension, Row, Rows};
 
-use super::search_answers::{OpinionStanding, TokenOpinion, opinion_of_annotation};
+use super::search_answers::{AnnotationOpinion, opinion_of_annotation};
 use super::search_terms::{TokenProperty, hand_codes, opinion_component, phase_code, reading_term, reading_text};
 use crate::db::cached_sql::CachedSql;
-use crate::db::stored_columns::{self, read_word_column, word_or_null};
+use crate::db::stored_columns::{self, OpinionStanding, read_word_column, word_or_null};
 use crate::error::CorpusResult;
 
 /// A token in the form in which the index stores it; texts are folded.
@@ -86,7 +86,7 @@ const SELECT_DOCUMENT_TOKENS_SQL: &str = "
     LEFT JOIN tier i ON i.id = a.tier_id LEFT JOIN signer p ON p.name = i.participant";
 
 const SELECT_DOCUMENT_VALUES_SQL: &str = "
-    SELECT token_id, hand, component, feature, phase, position, state, value, inventory_id, annotation_id
+    SELECT token_id, hand, component, feature, phase, position, state, value, inventory_id, annotation_id, standing
     FROM token_value";
 
 struct TokenFields {
@@ -295,7 +295,7 @@ impl<'c> TokenDocumentReader<'c> {
                 document
                     .readings
                     .push(Rc::new(opinion_terms(row, left_handed, &opinion)?));
-                opinions.push(opinion.standing);
+                opinions.push(word_or_null(row, 10)?.unwrap_or(opinion.usual_standing));
                 return Ok(());
             }
             document.readings.push(self.terms_of(row, left_handed)?);
@@ -453,7 +453,7 @@ impl<'c> TokenDocumentReader<'c> {
     }
 
     /// Returns the opinion that a row of values stands for; `None` for a value that counts.
-    fn opinion_of_row(&self, row: &Row<'_>) -> rusqlite::Result<Option<TokenOpinion>> {
+    fn opinion_of_row(&self, row: &Row<'_>) -> rusqlite::Result<Option<AnnotationOpinion>> {
         match (row.get_ref(6)?.as_str(), row.get::<_, Option<i64>>(9)?) {
             (Ok("unset"), Some(annotation)) => opinion_of_annotation(self.connection, annotation),
             _ => Ok(None),
@@ -501,7 +501,7 @@ impl<'c> TokenDocumentReader<'c> {
 }
 
 /// Returns the terms of an opinion, which no facet counts.
-fn opinion_terms(row: &Row<'_>, left_handed: bool, opinion: &TokenOpinion) -> rusqlite::Result<ReadingTerms> {
+fn opinion_terms(row: &Row<'_>, left_handed: bool, opinion: &AnnotationOpinion) -> rusqlite::Result<ReadingTerms> {
     let component = opinion_component(row.get_ref(2)?.as_str().unwrap_or_default());
     let part = row.get_ref(3)?.as_str_or_null()?;
     let phase = phase_code(stored_columns::read_phase_columns(row, 4)?);

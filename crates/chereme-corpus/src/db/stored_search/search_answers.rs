@@ -5,14 +5,13 @@ use std::collections::BTreeMap;
 use chereme_sign::tier::AnnotatedHands;
 use chereme_sign::{SignComponent, SignPhase, TierRole};
 use rusqlite::{Connection, OptionalExtension, Row};
-use serde::Serialize;
 
 use crate::db::cached_sql::CachedSql;
 use crate::db::people::SIGNER_ATTRIBUTE_PREFIX;
 use crate::db::signs::IS_OPINION_SQL;
 use crate::db::stored_attributes::AttributeRow;
 use crate::db::stored_columns::{
-    RecordOrigin, ValueState, read_phase_columns, read_role_columns, read_word_column, word_or_null,
+    OpinionStanding, RecordOrigin, ValueState, read_phase_columns, read_role_columns, read_word_column, word_or_null,
 };
 use crate::error::CorpusResult;
 
@@ -137,35 +136,19 @@ pub(crate) fn coded_of_token(connection: &Connection, token: i64, take: impl FnM
     each_coded(connection, &sql, [token], take)
 }
 
-/// Why something that is said of a token does not count.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum OpinionStanding {
-    /// A detector proposes it, and nobody has accepted it.
-    Proposed,
-    /// Annotators say different things, and nothing decides between them.
-    Disputed,
-}
-
-impl OpinionStanding {
-    /// Returns the name in queries and answers.
-    #[must_use]
-    pub fn standing_name(self) -> &'static str {
-        match self {
-            Self::Proposed => "proposed",
-            Self::Disputed => "disputed",
-        }
-    }
-}
-
-/// What an annotation says of a token, if that does not count.
-pub(crate) struct TokenOpinion {
-    pub(crate) standing: OpinionStanding,
+/// What an annotation says of a token.
+pub(crate) struct AnnotationOpinion {
     pub(crate) state: ValueState,
     pub(crate) value: String,
-    /// The annotator, or the detector.
+    /// The annotator, or [`DETECTOR_NAME`].
     pub(crate) by: Option<String>,
     pub(crate) confidence: Option<f64>,
+    /// The detector that found it, whoever accepted or corrected it.
+    pub(crate) detector: Option<String>,
+    /// What the detector proposed before a person gave another value.
+    pub(crate) proposed: Option<String>,
+    /// The standing of opinions that an earlier program wrote without one.
+    pub(crate) usual_standing: OpinionStanding,
 }
 
 /// The name under which queries and answers know detectors.
@@ -175,20 +158,17 @@ pub(crate) const DETECTOR_NAME: &str = "detector";
 pub(crate) fn opinion_of_annotation(
     connection: &Connection,
     annotation: i64,
-) -> rusqlite::Result<Option<TokenOpinion>> {
+) -> rusqlite::Result<Option<AnnotationOpinion>> {
     connection
         .prepare_cached(
-            "SELECT a.origin, a.state, trim(a.value), t.annotator, a.confidence
+            "SELECT a.origin, a.state, trim(a.value), t.annotator, coalesce(a.confidence, a.source ->> '$.confidence'),
+                 a.source ->> '$.detector' || ' ' || (a.source ->> '$.version'), a.source ->> '$.proposed'
              FROM annotation a JOIN tier t ON t.id = a.tier_id WHERE a.id = ?1",
         )?
         .query_row([annotation], |row| {
             // A proposal has no annotator whose word could stand against others'.
             let is_proposal = row.get_ref(0)?.as_str() == Ok(DETECTOR_NAME);
-            Ok(TokenOpinion {
-                standing: match is_proposal {
-                    true => OpinionStanding::Proposed,
-                    false => OpinionStanding::Disputed,
-                },
+            Ok(AnnotationOpinion {
                 state: read_word_column(row, 1)?,
                 value: row.get(2)?,
                 by: match is_proposal {
@@ -196,6 +176,12 @@ pub(crate) fn opinion_of_annotation(
                     false => row.get(3)?,
                 },
                 confidence: row.get(4)?,
+                detector: row.get(5)?,
+                proposed: row.get(6)?,
+                usual_standing: match is_proposal {
+                    true => OpinionStanding::Proposed,
+                    false => OpinionStanding::Disputed,
+                },
             })
         })
         .optional()
@@ -214,19 +200,20 @@ pub(crate) fn load_value_authors(connection: &Connection, tokens: &[i64]) -> Cor
     connection.read_rows(sql, [tokens], |row| Ok((row.get(0)?, (row.get(1)?, row.get(2)?))))
 }
 
-/// Calls `take` with the opinions about a token, each with its field and its annotation.
+/// Calls `take` with the opinions about a token, each with its field, its standing and its annotation.
 pub(crate) fn visit_token_opinions(
     connection: &Connection,
     token: i64,
-    mut take: impl FnMut(&CodedRow<'_>, TokenOpinion),
+    mut take: impl FnMut(&CodedRow<'_>, OpinionStanding, AnnotationOpinion),
 ) -> CorpusResult<()> {
     let sql = format!(
-        "SELECT NULL, NULL, hand, component, feature, phase, position, state, value, annotation_id
+        "SELECT NULL, NULL, hand, component, feature, phase, position, state, value, annotation_id, standing
          FROM token_value WHERE token_id = ?1 AND {IS_OPINION_SQL} ORDER BY id"
     );
     connection.visit_rows(&sql, [token], |row| {
         if let Some(opinion) = opinion_of_annotation(connection, row.get(9)?)? {
-            take(&CodedRow::coded_row_from_columns(row)?, opinion);
+            let standing = word_or_null(row, 10)?.unwrap_or(opinion.usual_standing);
+            take(&CodedRow::coded_row_from_columns(row)?, standing, opinion);
         }
         Ok(())
     })
@@ -246,6 +233,21 @@ pub(crate) fn tokens_by_annotator(connection: &Connection, is_meant: &dyn Fn(&st
     tokens.sort_unstable();
     tokens.dedup();
     Ok(tokens)
+}
+
+/// Returns the other names of the people who annotated tiers, by the name that the tiers have.
+pub(crate) fn annotator_aliases(connection: &Connection) -> CorpusResult<BTreeMap<String, Vec<String>>> {
+    // A tier may name a person by an alias, so that the person's own name is another one, too.
+    let sql = "SELECT DISTINCT t.annotator, o.name FROM tier t
+         JOIN (SELECT id AS person, name FROM signer UNION SELECT signer_id, name FROM person_alias) k ON k.name = t.annotator
+         JOIN (SELECT id AS person, name FROM signer UNION SELECT signer_id, name FROM person_alias) o
+             ON o.person = k.person AND o.name <> t.annotator";
+    let mut aliases: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    connection.visit_rows(sql, [], |row| {
+        aliases.entry(row.get(0)?).or_default().push(row.get(1)?);
+        Ok(())
+    })?;
+    Ok(aliases)
 }
 
 /// Returns the names of the annotators of tiers, each once, by name.
@@ -339,7 +341,7 @@ pub(crate) fn visit_said_values(
              iif(v.state = 'unset' AND a.id IS NOT NULL, a.state, v.state),
              iif(v.state = 'unset' AND a.id IS NOT NULL, trim(a.value), v.value),
              v.token_id, v.state = 'unset' AND a.id IS NOT NULL, a.origin = 'detector', n.annotator, a.confidence,
-             coalesce(p.handedness, g.handedness) = 'left'
+             coalesce(p.handedness, g.handedness) = 'left', v.standing
          FROM token_value v JOIN token t ON t.id = v.token_id
          LEFT JOIN annotation a ON a.id = v.annotation_id LEFT JOIN tier n ON n.id = a.tier_id
          LEFT JOIN annotation b ON b.id = t.annotation_id LEFT JOIN tier i ON i.id = b.tier_id
@@ -348,13 +350,14 @@ pub(crate) fn visit_said_values(
          WHERE v.component = ?1";
     connection.visit_rows(sql, [component], |row| {
         let (is_opinion, is_detected): (bool, Option<bool>) = (row.get(10)?, row.get(11)?);
-        let standing = match is_detected {
-            _ if !is_opinion => None,
-            Some(true) => Some(OpinionStanding::Proposed),
-            _ => Some(OpinionStanding::Disputed),
+        let standing = match (is_opinion, word_or_null(row, 15)?) {
+            (false, _) => None,
+            (true, Some(standing)) => Some(standing),
+            (true, None) if is_detected == Some(true) => Some(OpinionStanding::Proposed),
+            (true, None) => Some(OpinionStanding::Disputed),
         };
         let by = match standing {
-            Some(OpinionStanding::Proposed) => Some(DETECTOR_NAME),
+            Some(OpinionStanding::Proposed | OpinionStanding::Rejected) => Some(DETECTOR_NAME),
             _ => row.get_ref(12)?.as_str_or_null().map_err(rusqlite::Error::from)?,
         };
         take(&SaidValue {

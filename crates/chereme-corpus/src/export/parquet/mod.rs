@@ -21,9 +21,9 @@ use crate::address::RecordingStretch;
 use crate::consent::ConsentAudience;
 use crate::db::signs;
 use crate::db::stored_attributes;
-use crate::db::stored_columns::{AnnotationOrigin, ValueState, phase_name, phase_place};
+use crate::db::stored_columns::{AnnotationOrigin, OpinionStanding, ValueState, phase_name, phase_place};
 use crate::db::stored_recordings;
-use crate::db::stored_search::search_answers::{self, OpinionStanding};
+use crate::db::stored_search::search_answers;
 use crate::db::stored_tiers::{self, AnnotationRow, TierRow};
 use crate::error::{CorpusError, CorpusResult};
 use crate::hands::usable_take;
@@ -252,7 +252,7 @@ pub(super) fn write_annotation_parquet(
     let mut file = ParquetFileWriter::new(&annotations_table(), &describe_long_table(LongTable::Annotations), out)?;
     // An annotation that two tokens share is written as one row.
     let mut written = BTreeSet::new();
-    let opinions = signs::opinion_annotations(connection)?;
+    let opinions = signs::opinion_standings(connection)?;
     for (done, stretch) in stretches.iter().enumerate() {
         let mut table = annotations_table();
         for tier in stored_tiers::load_tier_rows(connection, stretch.recording.id)? {
@@ -263,7 +263,7 @@ pub(super) fn write_annotation_parquet(
                 );
                 let inside = stretch.token.is_none() || (row.start_us < end && start < row.end_us);
                 if inside && written.insert(row.id) {
-                    push_annotation_cells(&mut table, stretch, &tier, &row, opinions.contains(&row.id));
+                    push_annotation_cells(&mut table, stretch, &tier, &row, opinions.get(&row.id).copied());
                 }
             }
         }
@@ -304,7 +304,7 @@ fn push_annotation_cells(
     stretch: &RecordingStretch,
     tier: &TierRow,
     row: &AnnotationRow,
-    is_opinion: bool,
+    opinion: Option<Option<OpinionStanding>>,
 ) {
     let value = Some(row.value.as_str()).filter(|_| row.state == ValueState::Value);
     let (component, feature) = tier.role.role_component().unzip();
@@ -334,10 +334,11 @@ fn push_annotation_cells(
     for (number, cells) in doubles.into_iter().zip(columns.by_ref()) {
         cells.push_double(number);
     }
-    let standing = match (row.origin, is_opinion) {
+    let standing = match (row.origin, opinion) {
+        (_, Some(Some(standing))) => standing.standing_name(),
         (AnnotationOrigin::Detector, _) => OpinionStanding::Proposed.standing_name(),
-        (_, true) => OpinionStanding::Disputed.standing_name(),
-        (_, false) => "coded",
+        (_, Some(None)) => OpinionStanding::Disputed.standing_name(),
+        (_, None) => "coded",
     };
     for (cells, text) in columns.zip([row.origin.annotation_origin_name(), standing]) {
         cells.push_text(Some(text));

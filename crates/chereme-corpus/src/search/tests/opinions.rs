@@ -73,8 +73,14 @@ fn coding(sample: &mut Sample) -> String {
 fn an_adjudication_counts_only_where_somebody_has_decided() {
     let disputed = " | right.configuration=flat disputed anna, right.configuration=5 disputed ben";
     for (decision, wanted) in [
-        (ConflictDecision::Mine, "right.configuration=\"flat\" | "),
-        (ConflictDecision::Theirs, "right.configuration=\"5\" | "),
+        (
+            ConflictDecision::Mine,
+            "right.configuration=\"flat\" | right.configuration=flat agreed anna, right.configuration=5 replaced ben",
+        ),
+        (
+            ConflictDecision::Theirs,
+            "right.configuration=\"5\" | right.configuration=flat replaced anna, right.configuration=5 agreed ben",
+        ),
     ] {
         let mut sample = corpus_of_one_sign(&[
             by_person("anna", &[(0, 1000, "flat")]),
@@ -131,7 +137,7 @@ fn two_annotators_are_two_readings_and_one_of_them_counts_or_none() {
                 by_person("anna", &[(0, 1000, "flat")]),
                 by_person("ben", &[(10, 990, "flat")]),
             ],
-            "right.configuration=\"flat\" | ",
+            "right.configuration=\"flat\" | right.configuration=flat agreed ben",
         ),
         // Phase by phase.
         (
@@ -139,8 +145,8 @@ fn two_annotators_are_two_readings_and_one_of_them_counts_or_none() {
                 by_person("anna", &[(0, 500, "flat"), (500, 1000, "5")]),
                 by_person("ben", &[(0, 400, "flat"), (400, 1000, "S")]),
             ],
-            "initial.right.configuration=\"flat\" | final.right.configuration=5 disputed anna, \
-             final.right.configuration=S disputed ben",
+            "initial.right.configuration=\"flat\" | initial.right.configuration=flat agreed ben, \
+             final.right.configuration=5 disputed anna, final.right.configuration=S disputed ben",
         ),
         (
             &[
@@ -148,7 +154,7 @@ fn two_annotators_are_two_readings_and_one_of_them_counts_or_none() {
                 by_person("ben", &[(0, 1000, "5")]),
                 by_person("adjudication", &[(0, 1000, "5")]),
             ],
-            "right.configuration=\"5\" | ",
+            "right.configuration=\"5\" | right.configuration=flat replaced anna, right.configuration=5 agreed ben",
         ),
         // Copies of a tier without an annotator are opinions, too, and pieces on two tiers are one reading.
         (
@@ -173,7 +179,9 @@ fn the_annotator_whom_the_corpus_prefers_counts() {
     let mut sample = corpus_of_one_sign(&all);
     assert_eq!(sample.search("disputed:yes").total, 1);
     sample.corpus.prefer_annotator(Some("ben")).expect("preferred");
-    assert_eq!(coding(&mut sample), "right.configuration=\"5\" | ");
+    let preferred = "right.configuration=\"5\" | right.configuration=flat replaced anna";
+    assert_eq!(coding(&mut sample), preferred);
+    assert_eq!(sample.search("disputed:yes").total, 0);
     sample.corpus.prefer_annotator(None).expect("nobody is");
     assert_eq!(sample.search("disputed:yes").total, 1);
     assert!(
@@ -212,6 +220,7 @@ fn proposals_count_only_where_they_are_asked_for() {
     }
     let answer = sample.search("proposed:yes");
     let opinion = ValueOpinion {
+        detector: None,
         field: "right.placement".to_owned(),
         value: "chin".to_owned(),
         standing: OpinionStanding::Proposed,
@@ -231,6 +240,56 @@ fn proposals_count_only_where_they_are_asked_for() {
         Ok(())
     });
     assert_eq!(sample.search("placement=head proposed:yes").total, 1);
+}
+
+#[test]
+fn an_annotator_is_found_by_values_that_others_say_too_and_by_every_name() {
+    let mut sample = corpus_of_one_sign(&[
+        by_person("anna", &[(0, 500, "flat"), (500, 1000, "5")]),
+        by_person("ben", &[(0, 500, "flat"), (500, 1000, "S")]),
+        by_person("cleo", &[(0, 500, "flat"), (500, 1000, "5")]),
+    ]);
+    sample.work(|connection| {
+        let person = "INSERT INTO signer (name) VALUES ('ben') ON CONFLICT DO NOTHING";
+        connection.execute(person, [])?;
+        let alias = "INSERT INTO person_alias (signer_id, name) SELECT id, 'coder 2' FROM signer WHERE name = 'ben'";
+        connection.execute(alias, [])?;
+        Ok(())
+    });
+    sample.corpus.prefer_annotator(Some("cleo")).expect("preferred");
+    for (query, total) in [
+        ("by=ben", 1),
+        ("by=\"coder 2\"", 1),
+        ("configuration=flat{by=ben}", 1),
+        ("configuration=flat{by=\"coder 2\"}", 1),
+        ("configuration=S{by=ben}", 1),
+        ("configuration=5{by=ben}", 0),
+        // Anna agrees with the value that counts, and nothing is in dispute.
+        ("configuration=5{by=anna}", 1),
+        ("configuration=5{by=cleo}", 1),
+        ("configuration=S", 0),
+        ("disputed:yes", 0),
+    ] {
+        let found = sample.corpus.search_tokens(query, &SearchOptions::default());
+        assert_eq!(found.map_or(0, |answer| answer.total), total, "{query}");
+    }
+    let details = sample.corpus.token_details(&CorpusAddress::Token(1)).expect("details");
+    let said = details
+        .values
+        .iter()
+        .map(|value| (value.field.as_str(), value.by.join(",")));
+    let said: Vec<(&str, String)> = said.collect();
+    let wanted = [
+        ("initial.right.configuration", "cleo,anna,ben".to_owned()),
+        ("final.right.configuration", "cleo,anna".to_owned()),
+    ];
+    assert_eq!(said, wanted);
+    let replaced: Vec<_> = details
+        .opinions
+        .iter()
+        .map(|one| (one.value.as_str(), one.standing))
+        .collect();
+    assert_eq!(replaced, [("S", OpinionStanding::Replaced)]);
 }
 
 #[test]

@@ -67,6 +67,10 @@ fn all_effects() -> Vec<OperationEffect> {
             count,
             annotations: annotations(vec![Deed::AnnotationsRemoved { count }]),
         },
+        Effect::Reject {
+            count,
+            annotations: annotations(vec![Deed::AnnotationsRemoved { count }]),
+        },
         Effect::Adjudicate { tier: tier.clone() },
         Effect::PreferAnnotator {
             annotator: text("anna"),
@@ -326,6 +330,14 @@ fn operations_are_sentences_in_both_languages() {
             },
             "Proposed values accepted: 2, in Un",
             "Valeurs proposées acceptées : 2, dans Un",
+        ),
+        (
+            OperationEffect::Reject {
+                count: 2,
+                annotations: annotations(Vec::new()),
+            },
+            "Proposed values rejected: 2, in Un",
+            "Valeurs proposées rejetées : 2, dans Un",
         ),
         (
             OperationEffect::SummaryOnly {

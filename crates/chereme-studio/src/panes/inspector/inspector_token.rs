@@ -13,9 +13,9 @@ use crate::model::InspectedThing;
 use crate::panes::library::library_data::origin_text;
 use crate::panes::longest_word;
 use crate::panes::recombine::recipe_of;
-use crate::panes::search::feature_text;
+use crate::panes::search::{feature_text, results};
 use crate::pickers::pickers_hamnosys;
-use crate::words::{inspector as words, search_words};
+use crate::words::inspector as words;
 use crate::work::recordings_jobs;
 
 pub(super) fn show_token_details(
@@ -209,15 +209,12 @@ fn show_token_coding(
 
 /// Returns a value that does not count, with the reason, its author and the confidence of a detector.
 fn opinion_text(seen: &PaneInput<'_>, opinion: &ValueOpinion) -> String {
-    let standing = seen.say_text(match opinion.standing {
-        OpinionStanding::Proposed => search_words::PROPOSED,
-        OpinionStanding::Disputed => search_words::DISPUTED,
-    });
+    let standing = seen.say_text(results::standing_text(opinion.standing));
     let confidence = opinion.confidence.map(|share| format!("{share:.2}"));
     let author = opinion
         .by
         .clone()
-        .filter(|_| opinion.standing == OpinionStanding::Disputed);
+        .filter(|_| opinion.standing != OpinionStanding::Proposed);
     let reasons: Vec<String> = [standing.to_owned()]
         .into_iter()
         .chain(author)

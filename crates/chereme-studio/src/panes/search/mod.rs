@@ -16,7 +16,7 @@
 mod examples;
 mod hits;
 mod panes_search_facets;
-mod results;
+pub(crate) mod results;
 pub(crate) mod search_builder;
 mod search_cross;
 mod search_field;

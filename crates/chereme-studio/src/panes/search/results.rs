@@ -244,14 +244,24 @@ fn paint_coded_figure(ui: &Ui, seen: &PaneInput<'_>, hit: &SearchHit, rect: Rect
     ui.painter().galley(text_rect.min, galley, weak);
 }
 
+/// Returns the words for the reason why a value does not count.
+pub(crate) fn standing_text(standing: OpinionStanding) -> InterfaceText {
+    match standing {
+        OpinionStanding::Proposed => words::PROPOSED,
+        OpinionStanding::Rejected => words::REJECTED,
+        OpinionStanding::Disputed => words::DISPUTED,
+        OpinionStanding::Agreed => words::AGREED,
+        OpinionStanding::Replaced => words::REPLACED,
+    }
+}
+
 /// Returns the values of a hit that do not count, each with the reason.
 fn hit_opinions_text(hit: &SearchHit, seen: &PaneInput<'_>) -> Option<String> {
-    let marked = hit.opinions.iter().map(|opinion| {
-        let mark = match opinion.standing {
-            OpinionStanding::Proposed => words::PROPOSED,
-            OpinionStanding::Disputed => words::DISPUTED,
-        };
-        format!("{} ({})", opinion.value, seen.say_text(mark))
+    let others = hit.opinions.iter();
+    let others = others.filter(|opinion| opinion.standing != OpinionStanding::Agreed);
+    let marked = others.map(|opinion| {
+        let mark = seen.say_text(standing_text(opinion.standing));
+        format!("{} ({mark})", opinion.value)
     });
     let texts: Vec<String> = marked.collect();
     (!texts.is_empty()).then(|| texts.join(" · "))

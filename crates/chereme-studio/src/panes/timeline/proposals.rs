@@ -123,6 +123,32 @@ fn accept_selected_proposals(
     ActionOutcome::Yes
 }
 
+/// Rejects the selected annotations if all of them are proposals, and goes to the next one.
+pub(super) fn reject_selected_proposals(
+    timeline: &mut TimelinePane,
+    scene: &TimelineScene<'_>,
+    out: &mut CommandOutbox,
+) -> bool {
+    let proposals = selected_proposal_ids(scene);
+    if proposals.is_empty() {
+        return false;
+    }
+    let mut left = list_recording_proposals(scene.contents);
+    left.retain(|proposal| !proposals.contains(&proposal.id));
+    let next = next(&left, current_proposal_place(scene), |_| true);
+    let id = out.request_work(analysis::reject_proposals_job(proposals.iter().copied().collect()));
+    let then = ChangeFollowUp {
+        proposals,
+        ..ChangeFollowUp::default()
+    };
+    timeline.asked.pending.insert(id, then);
+    match next {
+        Some(next) => go_to_proposal(timeline, next, out),
+        None => out.send_command(WindowCommand::Span(None)),
+    }
+    true
+}
+
 /// Returns the tier on which a proposal is accepted, if there is one already.
 fn tier_for<'a>(scene: &TimelineScene<'a>, proposal: &RecordingProposal) -> Option<&'a TierContents> {
     let rows = scene.contents.tiers.iter().map(|candidate| &candidate.row);

@@ -4,13 +4,13 @@ use std::collections::BTreeSet;
 
 use chereme_corpus::snap::RecordingFrameTimes;
 use chereme_corpus::tier_values::{self, TierValues};
-use chereme_corpus::{AnnotationChange, RecordingContents, StoredInventory, TierContents, proposed_for, requests};
+use chereme_corpus::{AnnotationChange, RecordingContents, StoredInventory, TierContents, is_detector_tier, requests};
 use chereme_motion::TimeSpan;
 
 use super::dragged::{self, DraggedAnnotations, TierTiming};
 use super::editor::{EditTarget, ValueEditing};
 use super::tier_spans::{DragGrip, SpanItem};
-use super::{BegunAnnotation, ChangeFollowUp, GhostAnnotation, TimelinePane};
+use super::{BegunAnnotation, ChangeFollowUp, GhostAnnotation, TimelinePane, proposals};
 use crate::action::Action;
 use crate::command::CommandOutbox;
 use crate::context::PaneInput;
@@ -148,6 +148,8 @@ pub(super) fn carry_out_edit_action(
         Action::DeleteAnnotation | Action::ClearValue if chosen.is_empty() => {
             ActionOutcome::Cannot(shell::NEEDS_ANNOTATION)
         }
+        // A proposal that a person removes is rejected, so that it is not proposed again.
+        Action::DeleteAnnotation if proposals::reject_selected_proposals(timeline, scene, out) => ActionOutcome::Yes,
         Action::DeleteAnnotation => {
             let changes = requests::remove_annotation_changes(scene.contents, chosen);
             timeline.request_annotation_changes(changes, ChangeFollowUp::default(), out)
@@ -216,9 +218,9 @@ pub(super) fn has_pictures(inventory: &chereme_sign::ComponentInventory) -> bool
     pickers::pickers_data::inventory_picker_form(inventory) != pickers::pickers_data::PickerForm::Names
 }
 
-/// Returns whether a tier holds proposals, which detectors add and people accept.
+/// Returns whether a tier holds proposals, which detectors add and people accept, or such as people rejected.
 pub(super) fn holds_proposals(tier: &TierContents) -> bool {
-    proposed_for(&tier.row.name).is_some()
+    is_detector_tier(&tier.row.name)
 }
 
 /// Returns the reason why a tier has no room for an annotation.

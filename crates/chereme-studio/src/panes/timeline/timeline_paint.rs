@@ -1,7 +1,7 @@
 //! Painting of the timeline: ruler, bars, selection, playhead.
 
 use chereme_corpus::snap::SnapTarget;
-use chereme_corpus::{TierContents, ValueState, proposed_for};
+use chereme_corpus::{TierContents, ValueState, is_detector_tier};
 use chereme_motion::{RecordingInstant, TimeSpan};
 use eframe::egui::text::{LayoutJob, TextWrapping};
 use eframe::egui::{
@@ -86,7 +86,7 @@ pub(super) fn paint_annotation_bar(
     let id = tier.annotations.ids[bar.at];
     let chosen = bar.count == 1 && seen.shown.annotations.contains(&id);
     let missing = bar.count == 1 && tier.annotations.states[bar.at] != ValueState::Value;
-    let proposed = proposed_for(&tier.row.name).is_some();
+    let proposed = is_detector_tier(&tier.row.name);
     let colour = colours.tier_role_colour(&tier.row.role);
     let (fill, ink) = match (faint, chosen) {
         (true, _) => (colour.gamma_multiply(0.15), colours.on_annotation),
