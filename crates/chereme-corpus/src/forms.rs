@@ -1,13 +1,14 @@
 //! The forms of signs: their values in some fields, by which `pairs` and `stats` compare them.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::LazyLock;
 
 use chereme_formats::lexicon::{self, LexiconColumn, LexiconColumnMeaning, LexiconEntry, SignLexicon};
 use chereme_formats::roles::AnnotatedHands;
 use chereme_sign::text::{did_you_mean, fold_text, nearest_candidate};
 use chereme_sign::{ComponentField, SignComponent};
 use rusqlite::Connection;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 use crate::Corpus;
@@ -33,63 +34,20 @@ pub enum EmptyCellTreatment {
 /// The number of tokens between two reports of progress.
 const FORM_REPORT_STEP_TOKENS: usize = 64;
 
-/// Named sets of columns of the Signbank.
-pub const FIELD_SETS: [(&str, &[&str]); 5] = [
-    (
-        "S13",
-        &[
-            "Handedness",
-            "Handshape strong",
-            "Handshape change",
-            "Handshape weak",
-            "Relation between articulators",
-            "Location",
-            "Contact type",
-            "Movement direction",
-            "Movement shape",
-            "Repeated Movement",
-            "Alternating Movement",
-            "Relative orientation movement",
-            "Relative orientation location",
-        ],
-    ),
-    (
-        "F8",
-        &[
-            "Handedness",
-            "Handshape strong",
-            "Handshape weak",
-            "Handshape change",
-            "Location",
-            "Movement shape",
-            "Movement direction",
-            "Repeated Movement",
-        ],
-    ),
-    (
-        "F7",
-        &[
-            "Handedness",
-            "Handshape strong",
-            "Handshape weak",
-            "Location",
-            "Contact type",
-            "Movement shape",
-            "Movement direction",
-        ],
-    ),
-    (
-        "F5",
-        &[
-            "Handedness",
-            "Handshape strong",
-            "Handshape weak",
-            "Location",
-            "Movement direction",
-        ],
-    ),
-    ("C3", &["Handshape strong", "Location", "Movement direction"]),
-];
+/// A named set of columns of the Signbank.
+#[derive(Debug, Clone, Deserialize)]
+pub struct FieldSet {
+    /// The name.
+    pub name: String,
+    /// The titles of the columns.
+    pub titles: Vec<String>,
+}
+
+/// The named sets of columns of the Signbank, which are data: `schema/signbank_fields.json`.
+pub static FIELD_SETS: LazyLock<Vec<FieldSet>> = LazyLock::new(|| {
+    serde_json::from_str(chereme_data::schema_text("signbank_fields.json"))
+        .expect("the sets of columns are well formed")
+});
 
 /// The place from which forms come.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -179,13 +137,10 @@ impl SignForm {
 /// Returns the fields that are meant: those of a set if its name stands alone.
 pub(crate) fn named_fields(fields: &[String]) -> Vec<String> {
     let named = match fields {
-        [one] => FIELD_SETS.iter().find(|(name, _)| name == one),
+        [one] => FIELD_SETS.iter().find(|set| set.name == *one),
         _ => None,
     };
-    match named {
-        Some((_, titles)) => titles.iter().map(|title| (*title).to_owned()).collect(),
-        None => fields.to_vec(),
-    }
+    named.map_or_else(|| fields.to_vec(), |set| set.titles.clone())
 }
 
 /// The forms that are wanted.

@@ -163,7 +163,7 @@ pub use face::{
 pub use film::{FilmFacts, FilmFile, FilmPicture, FilmTimes, PicturePlanes};
 pub use foreign_code::hide_handled_panics;
 pub use forget::{ForgottenSigner, StillSaidText};
-pub use forms::{EmptyCellTreatment, FIELD_SETS, FormSource};
+pub use forms::{EmptyCellTreatment, FIELD_SETS, FieldSet, FormSource};
 pub use import::{
     AnnotationSide, BodyRead, ConventionRead, EditOutcome, FileInterpretation, FileJoin, FileJoining, FileReport,
     FileStatus, ImportCompletion, ImportOptions, ImportReport, JoinReason, JoinedFile, JoinedRecording, JointRole,

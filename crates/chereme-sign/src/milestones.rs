@@ -16,8 +16,10 @@
 //! assert_eq!(found.to_string(), "0.400s 0.520s 0.900s 2.100s 2.260s");
 //! ```
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::ops::Range;
+use std::sync::LazyLock;
 
 use chereme_motion::{RecordingInstant, TimeSpan};
 use serde::{Deserialize, Serialize};
@@ -42,68 +44,17 @@ pub enum BodyCut {
     Last,
 }
 
-/// The functions that have several names, with their names in lower case and without punctuation.
-const FUNCTION_NAMES: [(&str, &[&str]); 6] = [
-    (
-        "negation",
-        &[
-            "negation",
-            "neg",
-            "negative",
-            "negated",
-            "negacion",
-            "negazione",
-            "verneinung",
-            "ontkenning",
-        ],
-    ),
-    (
-        "wh",
-        &[
-            "wh",
-            "whq",
-            "whquestion",
-            "qu",
-            "contentquestion",
-            "questionpartielle",
-            "wfrage",
-            "questionouverte",
-        ],
-    ),
-    (
-        "yn",
-        &[
-            "yn",
-            "ynq",
-            "yesno",
-            "yesnoquestion",
-            "polarquestion",
-            "questiontotale",
-            "questionfermee",
-            "janeinfrage",
-        ],
-    ),
-    (
-        "topic",
-        &[
-            "topic",
-            "top",
-            "theme",
-            "thema",
-            "topique",
-            "topicalisation",
-            "topicalization",
-        ],
-    ),
-    (
-        "conditional",
-        &["conditional", "cond", "condition", "conditionnelle", "bedingung"],
-    ),
-    (
-        "rhetorical",
-        &["rhetorical", "rhq", "rhetoricalquestion", "questionrhetorique"],
-    ),
-];
+/// The functions that have several names, by name in lower case and without punctuation: `schema/expression_words.json`.
+static FUNCTION_NAMES: LazyLock<BTreeMap<String, String>> = LazyLock::new(|| {
+    let file = chereme_data::schema_text("expression_words.json");
+    let file: BTreeMap<String, Vec<String>> =
+        serde_json::from_str(file).expect("the shipped table of functions is whole; a test reads it");
+    let names = file.into_iter().flat_map(|(function, names)| {
+        let pair = move |name| (name, function.clone());
+        names.into_iter().map(pair)
+    });
+    names.collect()
+});
 
 impl ExpressionFunction {
     /// Returns the function with that name. `negation`, `wh`, `yn`, `topic`, `conditional` and `rhetorical` have
@@ -112,8 +63,7 @@ impl ExpressionFunction {
     pub fn from_function_name(name: &str) -> Self {
         let folded = fold_text(name.trim());
         let plain: String = folded.chars().filter(|letter| letter.is_alphanumeric()).collect();
-        let entry = FUNCTION_NAMES.iter().find(|(_, names)| names.contains(&&*plain));
-        Self(entry.map_or(folded, |(id, _)| (*id).to_owned()))
+        Self(FUNCTION_NAMES.get(&plain).cloned().unwrap_or(folded))
     }
 
     /// Returns its name.
@@ -126,7 +76,7 @@ impl ExpressionFunction {
     /// like those.
     #[must_use]
     pub fn is_known(&self) -> bool {
-        FUNCTION_NAMES.iter().any(|(id, _)| *id == self.0)
+        FUNCTION_NAMES.values().any(|function| *function == self.0)
     }
 
     /// Returns the sign at which its body is cut: the second for negation, the last for all others.

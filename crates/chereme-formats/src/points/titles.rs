@@ -33,72 +33,10 @@ enum AxisTitleStyle {
 const TITLE_SEPARATORS: [char; 6] = ['_', '.', ' ', ':', '-', '/'];
 
 /// Words of columns that hold no places, though they have axes.
-const NO_PLACES: &[&str] = &[
-    "acc",
-    "accel",
-    "acceleration",
-    "accelerometer",
-    "linacc",
-    "gyro",
-    "gyr",
-    "gyroscope",
-    "mag",
-    "magnetometer",
-    "vel",
-    "velocity",
-    "speed",
-    "jerk",
-    "rot",
-    "rotation",
-    "rotate",
-    "euler",
-    "angle",
-    "angles",
-    "angular",
-    "angvel",
-    "orientation",
-    "orient",
-    "quat",
-    "quaternion",
-    "force",
-    "forces",
-    "moment",
-    "moments",
-    "torque",
-    "gaze",
-    "dir",
-    "direction",
-    "normal",
-    "scale",
-    "gravity",
-    "grav",
-    "emg",
-    "std",
-    "sd",
-    "mean",
-    "average",
-    "avg",
-    "median",
-    "min",
-    "max",
-    "range",
-    "peak",
-    "sum",
-    "var",
-    "delta",
-    "onset",
-    "offset",
-    "velocities",
-    "omega",
-    "magnetic",
-    "grf",
-    "cop",
-    "error",
-    "f",
-    "v",
-    "q",
-    "w",
-];
+const NO_PLACES: &str = "acc accel acceleration accelerometer linacc gyro gyr gyroscope mag magnetometer vel velocity speed \
+    jerk rot rotation rotate euler angle angles angular angvel orientation orient quat quaternion force \
+    forces moment moments torque gaze dir direction normal scale gravity grav emg std sd mean average avg \
+    median min max range peak sum var delta onset offset velocities omega magnetic grf cop error f v q w";
 
 /// Returns the part that a word such as `x`, `likelihood` or `v` stands for.
 pub(super) fn parse_point_part(word: &str) -> Option<PointPart> {
@@ -323,7 +261,7 @@ fn holds_places(stem: &str) -> bool {
     let is_known = |word: &String| {
         let bare = word.trim_end_matches(|letter: char| letter.is_ascii_digit());
         let one = bare.strip_suffix('s').unwrap_or(bare);
-        NO_PLACES.contains(&bare) || NO_PLACES.contains(&one)
+        NO_PLACES.split(' ').any(|word| word == bare || word == one)
     };
     !words.iter().any(is_known)
 }

@@ -151,7 +151,7 @@ impl MeasuresPane {
                     for field in &self.known {
                         let mut is_chosen = fields.contains(field);
                         if ui.checkbox(&mut is_chosen, facet_name(field, seen)).changed() {
-                            let is_set = FIELD_SETS.iter().any(|(name, _)| [*name] == fields[..]);
+                            let is_set = FIELD_SETS.iter().any(|set| [&set.name] == fields[..]);
                             fields.retain(|other| other != field && !is_set);
                             fields.extend(is_chosen.then(|| field.clone()));
                         }
@@ -174,10 +174,10 @@ impl MeasuresPane {
             }
             ui.small(seen.say_text(words::COLUMN_SETS));
             ui.horizontal(|ui| {
-                for (name, _) in FIELD_SETS {
-                    let is_chosen = [name] == fields[..];
-                    if ui.selectable_label(is_chosen, name).clicked() {
-                        *fields = vec![name.to_owned()];
+                for set in FIELD_SETS.iter() {
+                    let is_chosen = [&set.name] == fields[..];
+                    if ui.selectable_label(is_chosen, &set.name).clicked() {
+                        *fields = vec![set.name.clone()];
                     }
                 }
             });
