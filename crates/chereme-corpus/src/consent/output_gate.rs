@@ -9,6 +9,7 @@ use serde::Serialize;
 
 use super::consent_gate::{PublishPermissions, TERMS_NOT_STATED, WithheldReason, withheld_remedy};
 use super::{ConsentAudience, ConsentKind};
+use crate::Corpus;
 use crate::error::{CorpusError, CorpusResult};
 
 /// The number of people whom a sentence names.
@@ -138,31 +139,52 @@ impl OutputGate {
         }
         let everything = self.permissions.all_recordings();
         let kinds = [ConsentKind::Movement, ConsentKind::Annotation];
-        let people: BTreeSet<String> = recordings
-            .unwrap_or(&everything)
-            .iter()
-            .filter_map(|recording| self.not_agreed(*recording, &kinds))
-            // Missing terms are no refusal of a person.
-            .filter(|withheld| withheld.why != WithheldReason::NoTerms)
-            .map(|withheld| withheld.who)
-            .collect();
-        if people.is_empty() {
-            return None;
-        }
-        let mut names = people.iter().take(MAX_NAMED_PEOPLE).cloned().collect::<Vec<_>>();
-        if people.len() > MAX_NAMED_PEOPLE {
-            names.push("…".to_owned());
-        }
-        Some(format!(
-            "this is for you alone: not everybody agreed that others see it: {}",
-            names.join(", ")
-        ))
+        let shown = recordings.unwrap_or(&everything).iter();
+        not_agreed_sentence(shown.filter_map(|recording| self.not_agreed(*recording, &kinds)))
     }
 
     /// Returns the terms of a recording, as a reader finds them in a file.
     pub(crate) fn terms_text(&self, recording: i64) -> String {
         self.permissions.recording_terms_text(recording)
     }
+}
+
+impl Corpus {
+    /// Returns a sentence that names those who have not agreed that everybody sees what a recipe makes, before it is
+    /// stored; `None` if all have.
+    ///
+    /// # Errors
+    /// Fails if the database fails. A recipe that cannot be evaluated shows nobody.
+    pub fn recipe_consent_sentence(&mut self, recipe: &str) -> CorpusResult<Option<String>> {
+        let (kinds, refused) = match self.withheld_recipe(recipe, OutputAudience::Public) {
+            Ok(None) => return Ok(None),
+            Ok(refused) => (&[ConsentKind::Derived][..], refused),
+            // A corpus that cannot be written cannot judge a sign as if it were stored, so that all who might object are named.
+            Err(_) => (&ConsentKind::ALL_CONSENT_KINDS[..], None),
+        };
+        let sources = self.recipe_sources(recipe)?;
+        let gate = OutputGate::open_output_gate(self.store.read_connection(), OutputAudience::Me)?;
+        let others = sources.iter().filter_map(|source| gate.not_agreed(*source, kinds));
+        Ok(not_agreed_sentence(refused.into_iter().chain(others)))
+    }
+}
+
+/// Returns a sentence that names those because of whom something is for its keepers alone; `None` if it names nobody.
+fn not_agreed_sentence(withheld: impl Iterator<Item = WithheldOutput>) -> Option<String> {
+    // Missing terms are no refusal of a person.
+    let refused = withheld.filter(|one| one.why != WithheldReason::NoTerms);
+    let people: BTreeSet<String> = refused.map(|one| one.who).collect();
+    if people.is_empty() {
+        return None;
+    }
+    let mut names = people.iter().take(MAX_NAMED_PEOPLE).cloned().collect::<Vec<_>>();
+    if people.len() > MAX_NAMED_PEOPLE {
+        names.push("…".to_owned());
+    }
+    Some(format!(
+        "this is for you alone: not everybody agreed that others see it: {}",
+        names.join(", ")
+    ))
 }
 
 /// Returns the error if nothing of an output passes.

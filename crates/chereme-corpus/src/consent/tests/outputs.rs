@@ -254,3 +254,36 @@ fn a_copy_of_everything_has_no_history_unless_it_is_asked_for() {
         assert_eq!(operations > 0, with_history);
     }
 }
+
+#[test]
+fn a_sign_that_is_not_stored_names_those_who_did_not_agree_to_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = copies(folder.path());
+    let named = |corpus: &mut Corpus, recipe: &str| {
+        let before = corpus.load_corpus_overview(1).expect("read");
+        let sentence = corpus.recipe_consent_sentence(recipe).expect("judged");
+        let after = corpus.load_corpus_overview(1).expect("read");
+        assert_eq!(before.recordings.len(), after.recordings.len(), "nothing is stored");
+        sentence.is_some_and(|text| text.ends_with(": Ada"))
+    };
+    for (_, recipe, _) in COPIES {
+        assert!(!named(&mut corpus, recipe), "{recipe}");
+    }
+    assert!(!named(&mut corpus, "no such sign |"), "it shows nobody");
+    let change = ConsentChange {
+        movement: Some(Some(ConsentAudience::Research)),
+        ..ConsentChange::default()
+    };
+    refuse(&mut corpus, "signer:Ada", &change);
+    for (_, recipe, sources) in COPIES {
+        assert_eq!(named(&mut corpus, recipe), !sources.is_empty(), "{recipe}");
+    }
+    let change = ConsentChange {
+        derived: Some(None),
+        ..ConsentChange::default()
+    };
+    refuse(&mut corpus, "signer:Ada", &change);
+    for (_, recipe, _) in COPIES {
+        assert!(named(&mut corpus, recipe), "{recipe}");
+    }
+}
