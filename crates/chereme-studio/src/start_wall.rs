@@ -48,6 +48,8 @@ pub(crate) fn loaded_starter_signs(ctx: &Context) -> Vec<Arc<GeneratedClip>> {
 fn clip_from_starter_sign(sign: StarterSign) -> GeneratedClip {
     GeneratedClip {
         name: sign.gloss,
+        // It belongs to no corpus.
+        recipe: String::new(),
         token: None,
         clip: sign.clip,
         faces: Vec::new(),

@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use chereme_corpus::{CorpusAddress, ExportOptions, ExportWhat, PictureOptions, RowName};
+use chereme_corpus::{CorpusAddress, PictureOptions, RowName};
 use eframe::egui::Context;
 
 use super::Studio;
@@ -70,22 +70,16 @@ impl Studio {
             }
         };
         let to = free_share_path(corpus, &file_name(&name, corpus, Some(ending)));
-        match (ending, what) {
-            ("glb", SharedMovement::Stored(address)) => {
-                let what = ExportWhat::Address(address);
-                Ok(exchange::export_files_job(what, to, ExportOptions::default()))
-            }
-            // Exports read the store, and this movement is not in it.
-            ("glb", SharedMovement::Made(_)) => Err(words::SHARE_STORE),
-            (ending, what) => {
-                let options = PictureOptions {
-                    height: (ending == "mp4").then_some(SHARED_FILM_HEIGHT_PIXELS),
-                    captions: ending != "png",
-                    ..PictureOptions::default()
-                };
-                Ok(exchange::share_movement_job(what, to, options))
-            }
+        // Exports read the store, and this movement is not in it.
+        if ending == "glb" && matches!(what, SharedMovement::Made(_)) {
+            return Err(words::SHARE_STORE);
         }
+        let options = PictureOptions {
+            height: (ending == "mp4").then_some(SHARED_FILM_HEIGHT_PIXELS),
+            captions: ending != "png",
+            ..PictureOptions::default()
+        };
+        Ok(exchange::share_movement_job(what, to, options))
     }
 }
 

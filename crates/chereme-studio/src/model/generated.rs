@@ -11,6 +11,8 @@ use chereme_sign::SignerHandedness;
 pub(crate) struct GeneratedClip {
     /// Name for display: the gloss or the recipe.
     pub(crate) name: String,
+    /// The recipe that it was generated from.
+    pub(crate) recipe: String,
     /// The token whose notation it was generated from, if that is its only source.
     pub(crate) token: Option<i64>,
     pub(crate) clip: Clip,
@@ -42,6 +44,7 @@ impl GeneratedClip {
         };
         Self {
             name: name.clone(),
+            recipe: made.recipe.clone(),
             token: None,
             clip: made.clip.clone(),
             faces: made.faces.clone(),

@@ -231,12 +231,11 @@ impl NoticeBoard {
             }
             WorkOutcome::Toured(report) if !report.dry_run => report.round_sentence(language),
             WorkOutcome::Exported(report) => super::overlay_export::written_text(report, language),
-            WorkOutcome::Shared(picture) => {
-                if let Some(sentence) = &picture.for_me {
+            WorkOutcome::Shared { title, path, notes } => {
+                for sentence in notes {
                     self.add_lasting_notice(&translate_library_message(sentence, language), None);
                 }
-                let values: [(&str, &dyn std::fmt::Display); 2] =
-                    [("title", &picture.title), ("path", &picture.path.display())];
+                let values: [(&str, &dyn Display); 2] = [("title", title), ("path", &path.display())];
                 fill_text_braces(crate::words::stage_words::SHARED.text_in_language(language), &values)
             }
             _ => return,

@@ -70,20 +70,32 @@ pub(crate) fn export_found(query: String, to: PathBuf, options: ExportOptions) -
     })
 }
 
-/// Draws the contents of the stage to a film, an animation or a picture.
+/// Writes the contents of the stage to a file: a film, an animation, a picture or, for stored movement, a body.
 pub(crate) fn share_movement_job(what: SharedMovement, to: PathBuf, options: PictureOptions) -> CorpusJob {
+    let is_body = to.extension().is_some_and(|ending| ending == "glb");
     CorpusJob::new(JobAbout::WRITE_JOB_ABOUT, move |corpus, progress| {
-        let picture = match what {
-            SharedMovement::Stored(address) => corpus.draw_movement_file(&address, &to, &options, progress),
+        let (title, notes) = match what {
+            SharedMovement::Stored(address) if is_body => {
+                let what = ExportWhat::Address(address);
+                let report = corpus.export_corpus(&what, &to, &ExportOptions::default(), progress)?;
+                let title = to.file_stem().unwrap_or_default().display().to_string();
+                (title, report.notes)
+            }
+            SharedMovement::Stored(address) => {
+                let picture = corpus.draw_together(&[address], &to, &options, progress)?;
+                (picture.title, picture.for_me.into_iter().collect())
+            }
             SharedMovement::Made(made) => {
                 let performance = DrawablePerformance {
                     clip: &made.clip,
                     anatomy: &made.anatomy,
                     faces: &made.faces,
                 };
-                draw_clip(performance, &made.name, &to, &options, progress)
+                let picture = draw_clip(performance, &made.name, &to, &options, progress)?;
+                let sentence = corpus.recipe_consent_sentence(&made.recipe)?;
+                (picture.title, sentence.into_iter().collect())
             }
         };
-        picture.map(WorkOutcome::Shared)
+        Ok(WorkOutcome::Shared { title, path: to, notes })
     })
 }

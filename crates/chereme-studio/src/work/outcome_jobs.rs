@@ -7,9 +7,9 @@ use chereme_corpus::study::report::StudyReport;
 use chereme_corpus::study::{AnswerList, AnswersReport, BuiltQuestionnaire, NamedText, StudyClip, StudyOverview};
 use chereme_corpus::{
     AdjudicationResult, AnnotateReport, AnnotatorAgreement, CheckReport, CueSlips, DeletionReport, DisplayedMovement,
-    DrawnPicture, ExportReport, FitReport, FoundExpressions, ImportReport, KinematicCurves, MadePart, MergeReport,
-    NonmanualOnsets, ObjectDetails, OperationRow, PerformanceChoice, PointsPiece, ProposalResult, RecombinationResult,
-    SearchAnswer, SignMap, SignMeasures, SignSuggestions, TierRoundReport, TokenNeighbours, ValueTally,
+    ExportReport, FitReport, FoundExpressions, ImportReport, KinematicCurves, MadePart, MergeReport, NonmanualOnsets,
+    ObjectDetails, OperationRow, PerformanceChoice, PointsPiece, ProposalResult, RecombinationResult, SearchAnswer,
+    SignMap, SignMeasures, SignSuggestions, TierRoundReport, TokenNeighbours, ValueTally,
 };
 use eframe::egui::ColorImage;
 
@@ -107,8 +107,15 @@ pub(crate) enum WorkOutcome {
     Suggested(SignSuggestions),
     /// Files were written.
     Exported(ExportReport),
-    /// The stage was drawn to a file.
-    Shared(DrawnPicture),
+    /// The contents of the stage were written to a file.
+    Shared {
+        /// The name of the contents.
+        title: String,
+        /// The file.
+        path: PathBuf,
+        /// What was left out, and who has not agreed that others see it.
+        notes: Vec<String>,
+    },
     /// A piece of movement.
     Moved {
         /// The recording's row id.

@@ -48,11 +48,12 @@ impl StudiesPane {
 
     /// Shows the clip on the stage once it is made.
     pub(super) fn give_clip(&mut self, out: &mut CommandOutbox) {
-        let Some((made, (name, _))) = self.clip.made.take().zip(self.clip.of.clone()) else {
+        let Some((made, (name, recipe))) = self.clip.made.take().zip(self.clip.of.clone()) else {
             return;
         };
         let clip = GeneratedClip {
             name,
+            recipe,
             token: None,
             clip: made.clip.clone(),
             faces: made.faces.clone(),
