@@ -44,6 +44,8 @@ pub enum RemedyChoice {
     OtherCorpus,
     /// The check of the corpus.
     Check,
+    /// What a person or a recording agreed to.
+    Consent,
     /// The notation of a sign, or movement for it.
     Notation,
 }

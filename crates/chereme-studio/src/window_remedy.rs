@@ -5,7 +5,8 @@ use chereme_corpus::remedy::{ErrorRemedy, RemedyChoice};
 use eframe::egui::{Color32, RichText, Ui};
 
 use crate::words::{
-    InterfaceLanguage, InterfaceText, import_words as words, shell, translate_library_message, trouble_words,
+    InterfaceLanguage, InterfaceText, export_words, import_words as words, shell, translate_library_message,
+    trouble_words,
 };
 
 /// A failure that is shown beside the work that failed.
@@ -64,6 +65,7 @@ fn offered_choice_text(choice: RemedyChoice) -> InterfaceText {
         RemedyChoice::Joining => words::HELP_JOINING,
         RemedyChoice::OtherCorpus => trouble_words::OTHER_CORPUS,
         RemedyChoice::Check => trouble_words::CHECK_HERE,
+        RemedyChoice::Consent => export_words::HELP_CONSENT,
         RemedyChoice::Notation => shell::HELP_NOTATION,
     }
 }

@@ -2,6 +2,7 @@
 
 mod common;
 
+use chereme_corpus::ConsentAudience;
 use common::*;
 use eframe::egui::{Event, Key, Modifiers, PointerButton, Role, pos2};
 use egui_kittest::kittest::Queryable;
@@ -109,6 +110,59 @@ fn the_shown_recording_is_exported_to_a_typed_path() {
     window.key_press(Key::Escape);
     window.run_steps(3);
     assert!(!has(&window, "Where to"));
+}
+
+#[test]
+fn an_export_for_others_leaves_out_and_names_what_nobody_agreed_to() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = open_small(folder.path());
+    let path = window.state().shown_corpus_path().expect("open").clone();
+    let agree = |annotation| {
+        let mut corpus = chereme_corpus::Corpus::open_corpus(&path, "B").expect("opened");
+        let change = chereme_corpus::ConsentChange {
+            movement: Some(Some(ConsentAudience::Public)),
+            annotation: Some(annotation),
+            ..Default::default()
+        };
+        let signer = "signer:1".parse().expect("an address");
+        corpus.change_consent(&[signer], &change).expect("changed");
+    };
+    agree(Some(ConsentAudience::Public));
+    window.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::E);
+    window.run_steps(4);
+    click(&mut window, "The whole corpus");
+    click(&mut window, "everybody");
+    let to = folder.path().join("all");
+    type_into(&mut window, "Where to", &to.display().to_string());
+    click(&mut window, "Write");
+    idle(&mut window);
+    assert!(shows(&window, "Written: ") && !shows(&window, "Left out"));
+    agree(None);
+    let to = folder.path().join("others");
+    type_into(&mut window, "Where to", &to.display().to_string());
+    click(&mut window, "Write");
+    idle(&mut window);
+    assert!(shows(&window, "Left out, because somebody has not agreed: 1"));
+    assert!(shows(&window, "\"escargot\" is withheld from public because of"));
+    assert!(!to.join("recordings").join("escargot.bvh").exists());
+    click(&mut window, "The recording escargot");
+    click(&mut window, "Write");
+    idle(&mut window);
+    assert!(shows(&window, "under “Agreed to”"), "it says how to state a consent");
+    click(&mut window, "me alone");
+    click(&mut window, "Write");
+    idle(&mut window);
+    assert!(shows(&window, "this is for you alone"));
+    window.key_press(Key::Escape);
+    window.run_steps(3);
+    assert!(!shows(&window, "this is for you alone"));
+    click(&mut window, "Share");
+    click(&mut window, "Share as a body that moves (GLB)");
+    idle(&mut window);
+    until(&mut window, "who did not agree", |it| {
+        shows(it, "this is for you alone")
+    });
+    assert!(folder.path().join("escargot.glb").exists());
 }
 
 #[test]

@@ -2,8 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use chereme_sign::ErrorRemedy;
 use chereme_sign::text::fold_text;
+use chereme_sign::{ErrorRemedy, RemedyChoice};
 use rusqlite::Connection;
 use serde::Serialize;
 
@@ -482,7 +482,8 @@ pub(super) fn forbids_derivatives(licence: &str) -> bool {
 /// Returns the remedy for something that was withheld.
 pub(crate) fn withheld_remedy(reason: WithheldReason) -> ErrorRemedy {
     match reason {
-        WithheldReason::ConsentUnknown => ErrorRemedy::command_remedy(
+        WithheldReason::ConsentUnknown => ErrorRemedy::choice_remedy(
+            RemedyChoice::Consent,
             "state what the signers agreed to: `chereme consent CORPUS signer:NAME --all public`",
         ),
         WithheldReason::NotPublic => "the signers did not agree that everybody sees it".into(),

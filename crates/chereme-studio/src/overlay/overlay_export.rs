@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use chereme_corpus::{CorpusAddress, ExportOptions, ExportReport, ExportWhat, MovementForm, RowName};
+use chereme_corpus::{CorpusAddress, ExportOptions, ExportReport, ExportWhat, MovementForm, OutputAudience, RowName};
 use eframe::egui::{Button, Context, Id, Key, RichText, ScrollArea, Ui};
 
 use crate::command::{CommandOutbox, WindowCommand};
@@ -12,6 +12,7 @@ use crate::panes::import::PathCompletions;
 use crate::panes::recombine::selected_token;
 use crate::panes::show_running_work;
 use crate::settings::StudioSettings;
+use crate::window_remedy::ShownFailure;
 use crate::words::{
     InterfaceLanguage, InterfaceText, export_words as words, fill_text_braces, translate_library_message,
 };
@@ -93,6 +94,8 @@ pub(crate) struct ExportWindow {
     format: Option<&'static str>,
     /// The avatar whose bones move in the file instead of those of the capture.
     avatar: Option<&'static str>,
+    /// For whom it is written.
+    audience: OutputAudience,
     to: String,
     /// Whether the user typed the path, so that it is not changed automatically.
     typed: bool,
@@ -101,7 +104,7 @@ pub(crate) struct ExportWindow {
     /// The query of the latest complete answer, and how many tokens it found.
     found: Option<(String, usize)>,
     asked: Option<WorkId>,
-    wrong: Option<String>,
+    wrong: Option<ShownFailure>,
     stopped: bool,
     written: Option<ExportReport>,
 }
@@ -110,6 +113,8 @@ impl ExportWindow {
     pub(crate) fn toggle_export_window(&mut self) {
         self.open = !self.open;
         (self.what, self.typed, self.wrong, self.written) = (None, false, None, None);
+        // What was once written for others must not be the usual choice by accident, nor the other way round.
+        self.audience = OutputAudience::default();
     }
 
     pub(crate) fn handle_export_result(&mut self, id: WorkId, ended: &WorkResult) {
@@ -126,13 +131,7 @@ impl ExportWindow {
             Ok(WorkOutcome::Exported(report)) => self.written = Some(report.clone()),
             Ok(_) => {}
             Err(chereme_corpus::CorpusError::Stopped) => self.stopped = true,
-            Err(error) => {
-                let advice_text = error
-                    .error_remedy()
-                    .and_then(|remedy| remedy.remedy_advice().map(str::to_owned));
-                let remedy = advice_text.map_or(String::new(), |text| format!("\n{text}"));
-                self.wrong = Some(format!("{error}{remedy}"));
-            }
+            Err(error) => self.wrong = Some(ShownFailure::from_error(error)),
         }
     }
 
@@ -231,6 +230,23 @@ impl ExportWindow {
             self.to = path.display().to_string();
         }
         ui.add_space(4.0);
+        ui.label(RichText::new(seen.say_text(words::AUDIENCE)).small());
+        ui.horizontal_wrapped(|ui| {
+            for (audience, text) in [
+                (OutputAudience::Me, words::FOR_ME),
+                (OutputAudience::Research, words::FOR_RESEARCH),
+                (OutputAudience::Public, words::FOR_PUBLIC),
+            ] {
+                let choice = ui.selectable_value(&mut self.audience, audience, seen.say_text(text));
+                if choice.changed() {
+                    (self.written, self.wrong) = (None, None);
+                }
+            }
+        });
+        if self.audience != OutputAudience::Me {
+            ui.small(seen.say_text(words::AUDIENCE_HINT));
+        }
+        ui.add_space(4.0);
         let label = ui.label(RichText::new(seen.say_text(words::WHERE)).small());
         let line = CompletionLine::default();
         let typed = self
@@ -246,9 +262,7 @@ impl ExportWindow {
         ui.add_space(4.0);
         self.show_export_buttons(ui, seen, settings, &what, entered, out);
         if let Some(wrong) = &self.wrong {
-            let lines = wrong.lines().map(|line| translate_library_message(line, seen.language));
-            let joined_lines = lines.collect::<Vec<_>>().join("\n");
-            ui.label(RichText::new(joined_lines).color(seen.pane_colours().trouble));
+            wrong.show_failure(ui, seen.language, seen.pane_colours().trouble);
         }
         if self.stopped {
             ui.label(seen.say_text(words::STOPPED));
@@ -256,12 +270,16 @@ impl ExportWindow {
         if let Some(report) = &self.written {
             let text = written_text(report, seen.language);
             ui.label(RichText::new(text).color(seen.pane_colours().good));
+            if !report.withheld.is_empty() {
+                let withheld = fill_text_braces(seen.say_text(words::WITHHELD), &[("n", &report.withheld.len())]);
+                ui.label(RichText::new(withheld).color(seen.pane_colours().warning));
+            }
             ScrollArea::vertical().max_height(100.0).show(ui, |ui| {
-                for file in &report.files {
-                    ui.small(format!("{} · {} KB", file.path.display(), file.bytes.div_ceil(1024)));
-                }
                 for note in &report.notes {
                     ui.small(translate_library_message(note, seen.language));
+                }
+                for file in &report.files {
+                    ui.small(format!("{} · {} KB", file.path.display(), file.bytes.div_ceil(1024)));
                 }
             });
         }
@@ -299,22 +317,18 @@ impl ExportWindow {
         let options = ExportOptions {
             force: self.replace,
             movement: self.movement_form(),
+            audience: self.audience,
             ..ExportOptions::default()
         };
-        let address = |address: CorpusAddress| ExportWhat::Address(address);
+        let stored = match what {
+            ExportObject::Token(id, _) => Some(CorpusAddress::Token(*id)),
+            ExportObject::Tier(id, _) => Some(CorpusAddress::Tier(*id)),
+            ExportObject::Recording(id, _) => Some(CorpusAddress::Recording(RowName::Number(*id))),
+            ExportObject::Found(..) | ExportObject::All => None,
+        };
         let job = match what {
-            ExportObject::Token(id, _) => {
-                exchange::export_files_job(address(CorpusAddress::Token(*id)), to.clone(), options)
-            }
-            ExportObject::Tier(id, _) => {
-                exchange::export_files_job(address(CorpusAddress::Tier(*id)), to.clone(), options)
-            }
-            ExportObject::Recording(id, _) => {
-                let recording = CorpusAddress::Recording(RowName::Number(*id));
-                exchange::export_files_job(address(recording), to.clone(), options)
-            }
             ExportObject::Found(query, _) => exchange::export_found(query.clone(), to.clone(), options),
-            ExportObject::All => exchange::export_files_job(ExportWhat::All, to.clone(), options),
+            _ => exchange::export_files_job(stored.map_or(ExportWhat::All, ExportWhat::Address), to.clone(), options),
         };
         (self.wrong, self.written, self.stopped) = (None, None, false);
         self.asked = Some(out.request_work(job));
