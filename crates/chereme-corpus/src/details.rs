@@ -17,6 +17,7 @@ use crate::db::stored_search::search_answers::{self, AnnotationOpinion};
 use crate::db::stored_tracks::{self, TrackRow};
 use crate::db::{edits, notations, recipes};
 use crate::error::{CorpusError, CorpusResult};
+use crate::hands;
 use crate::inventories::ValueName;
 use crate::media::MediaPlace;
 use crate::movement::MotionTrack;
@@ -59,6 +60,8 @@ pub struct TokenDetails {
     pub values: Vec<TokenValue>,
     /// The values that do not count, apart from those that agree with one that does.
     pub opinions: Vec<ValueOpinion>,
+    /// The other takes from which the range of the fingers was measured, if a detector proposes handshapes.
+    pub range_takes: Vec<String>,
     /// Its HamNoSys, if it is notated.
     pub notation: Option<String>,
     /// The recipe of its recording, if that was generated.
@@ -175,6 +178,8 @@ pub struct RecordingDetails {
     pub lexicon: Option<String>,
     /// The files that it came from: kind, name.
     pub files: Vec<(String, String)>,
+    /// The other takes of the signer from which the range of the fingers is measured.
+    pub range_takes: Vec<String>,
     /// Its tracks of every kind, oldest first.
     pub tracks: Vec<TrackRow>,
     /// The media files beside it.
@@ -269,7 +274,15 @@ impl Corpus {
             Some(recipe) => recipes::list_recipe_inputs(&reading, recipe.id)?,
             None => Vec::new(),
         };
+        let is_measured = |opinion: &ValueOpinion| {
+            opinion.standing == OpinionStanding::Proposed && opinion.field.ends_with("configuration")
+        };
+        let range_takes = match row.recording_id.filter(|_| opinions.iter().any(is_measured)) {
+            Some(id) => hands::hand_range_takes(&reading, &self.hands, id)?,
+            None => Vec::new(),
+        };
         Ok(TokenDetails {
+            range_takes,
             values,
             opinions,
             notation: token_hamnosys_text(&reading, row.id)?,
@@ -335,6 +348,7 @@ impl Corpus {
         let id = address::find_recording_by_name(&reading, recording)?.id;
         let mut details = RecordingDetails {
             id,
+            range_takes: hands::hand_range_takes(&reading, &self.hands, id)?,
             lexicon: lexicons::lexicon_name_of_recording(&reading, id)?,
             joints: 0,
             roles: Vec::new(),

@@ -185,6 +185,23 @@ fn rests_in_clip(clip: &Clip, anatomy: &BodyAnatomy, side: BodySide) -> bool {
     })
 }
 
+/// Returns the names of the other takes of the signer from which the range of the fingers of a recording is measured.
+pub(crate) fn hand_range_takes(
+    connection: &Connection,
+    kept: &RefCell<HandCorrectionCache>,
+    recording: i64,
+) -> CorpusResult<Vec<String>> {
+    let row = stored_recordings::load_recording_row(connection, recording)?;
+    if row.origin == RecordOrigin::Made || stored_recordings::body_track(connection, recording)?.is_none() {
+        return Ok(Vec::new());
+    }
+    let mut kept = kept.borrow_mut();
+    kept.renew(connection)?;
+    let track = MotionTrack::open_motion_track(connection, recording)?;
+    let others = kept.other_hand_takes(connection, &row, &track)?;
+    Ok(others.into_iter().map(|(other, _)| other.name).collect())
+}
+
 /// Returns the corrections of a recording; they are cached until the corpus changes.
 pub(crate) fn load_hand_corrections(
     connection: &Connection,
@@ -204,35 +221,10 @@ pub(crate) fn load_hand_corrections(
     let anatomy = own_track.track_anatomy(connection)?;
     let sound = kept.usable_take(connection, row)?.frames;
     observe_hand_ranges(connection, &own_track, &anatomy, &sound, &mut ranges)?;
-    let mut alike = Vec::new();
-    if row.signer_id.is_some() {
-        for other in stored_recordings::load_recording_rows(connection)? {
-            let same = other.signer_id == row.signer_id && other.origin != RecordOrigin::Made;
-            if same
-                && other.id != row.id
-                && let Some(track) = stored_recordings::body_track(connection, other.id)?
-            {
-                alike.push((track.skeleton_id != own_track.row.skeleton_id, other));
-            }
-        }
-    }
-    // The very same skeleton first; otherwise in the order of recordings.
-    alike.sort_by_key(|(differs, _)| *differs);
-    let bones = measure_hand_bones(connection, &own_track, &anatomy)?;
-    let mut takes = 1;
-    for (differs, other) in alike {
-        if takes == MAX_SIGNER_TAKES {
-            break;
-        }
-        let track = MotionTrack::open_motion_track(connection, other.id)?;
-        // A signer may be captured with several skeletons; only equal bones give comparable angles.
-        if differs && !equal(&bones, kept.track_hand_bones(connection, &track)?) {
-            continue;
-        }
+    for (other, track) in kept.other_hand_takes(connection, row, &own_track)? {
         let anatomy = track.track_anatomy(connection)?;
         let sound = kept.usable_take(connection, &other)?.frames;
         observe_hand_ranges(connection, &track, &anatomy, &sound, &mut ranges)?;
-        takes += 1;
     }
     let corrections = ranges.map(|range| range.suggest_hand_correction());
     kept.found.insert(row.id, corrections);
@@ -276,6 +268,43 @@ impl HandCorrectionCache {
         }
         self.takes.insert(row.id, take.clone());
         Ok(take)
+    }
+
+    /// Returns the other takes of a recording's signer from which the range of the fingers is measured, those with the very
+    /// same skeleton first.
+    fn other_hand_takes(
+        &mut self,
+        connection: &Connection,
+        row: &RecordingRow,
+        own_track: &MotionTrack,
+    ) -> CorpusResult<Vec<(RecordingRow, MotionTrack)>> {
+        let own_bones = self.track_hand_bones(connection, own_track)?.clone();
+        if row.signer_id.is_none() || own_bones.is_empty() {
+            return Ok(Vec::new());
+        }
+        let mut others = stored_recordings::load_recording_rows(connection)?;
+        others.retain(|other| {
+            other.signer_id == row.signer_id && other.origin != RecordOrigin::Made && other.id != row.id
+        });
+        let mut alike = Vec::new();
+        for other in others {
+            if let Some(track) = stored_recordings::body_track(connection, other.id)? {
+                alike.push((track.skeleton_id != own_track.row.skeleton_id, other));
+            }
+        }
+        alike.sort_by_key(|(differs, _)| *differs);
+        let mut takes = Vec::new();
+        for (differs, other) in alike {
+            if takes.len() + 1 == MAX_SIGNER_TAKES {
+                break;
+            }
+            let track = MotionTrack::open_motion_track(connection, other.id)?;
+            // A signer may be captured with several skeletons; only equal bones give comparable angles.
+            if !differs || equal(&own_bones, self.track_hand_bones(connection, &track)?) {
+                takes.push((other, track));
+            }
+        }
+        Ok(takes)
     }
 
     /// Returns the bones of a track's hands.
@@ -344,9 +373,9 @@ mod tests {
     use super::*;
     use crate::{ImportOptions, ProgressReceiver, ignore_progress_step, starter_files};
 
-    /// Returns the corrections of the first of a signer's captures, imported with the others; each has this many
-    /// centimetres added to the offset of a joint.
-    fn corrected(files: &[(&str, &str, f64)]) -> [HandCorrection; 2] {
+    /// Returns the corrections of the first of a signer's captures, imported with the others, and the names of the takes
+    /// that they come from; each has this many centimetres added to the offset of a joint.
+    fn corrected(files: &[(&str, &str, f64)]) -> ([HandCorrection; 2], Vec<String>) {
         let folder = tempfile::tempdir().expect("a folder");
         let mut paths = Vec::new();
         for (name, joint, more) in files {
@@ -383,7 +412,8 @@ mod tests {
             .import_paths(&paths, &options, &mut ProgressReceiver::new(&mut unheard))
             .expect("taken in");
         let first = RowName::Text(files[0].0.to_owned());
-        corpus.hand_corrections(&first).expect("corrections")
+        let takes = corpus.recording_details(&first).expect("details").range_takes;
+        (corpus.hand_corrections(&first).expect("corrections"), takes)
     }
 
     /// Returns a starter capture in which all channels of the fingers of these sides are 0.
@@ -508,7 +538,9 @@ mod tests {
     fn takes_of_a_signer_share_a_range_if_their_hands_have_the_same_bones() {
         let both = corrected(&[("bol", "", 0.0), ("configurations", "", 0.0)]);
         let alone = corrected(&[("bol", "", 0.0)]);
-        assert_ne!(both, alone, "the other take shows more of the range");
+        assert_ne!(both.0, alone.0, "the other take shows more of the range");
+        let other_take = vec!["configurations".to_owned()];
+        assert_eq!([&both.1, &alone.1], [&other_take, &Vec::new()]);
         for (joint, more, is_shared) in [
             ("Spine1", 0.012, true),
             ("Spine1", 3.0, true),
@@ -518,8 +550,8 @@ mod tests {
             ("RightHandThumb3", 0.4, false),
         ] {
             let found = corrected(&[("bol", "", 0.0), ("configurations", joint, more)]);
-            let want = if is_shared { both } else { alone };
-            assert_eq!(found, want, "{joint} {more}");
+            let want = if is_shared { &both } else { &alone };
+            assert_eq!(found, *want, "{joint} {more}");
         }
     }
 }

@@ -170,6 +170,13 @@ impl Corpus {
         let mut findings = written.findings;
         findings.extend(printed.losses.iter().map(|loss| loss.message.clone()));
         findings.extend(correction_finding(&hands));
+        let takes = crate::hands::hand_range_takes(connection, &self.hands, stretch.recording.id)?;
+        if !takes.is_empty() {
+            let names = takes.join(", ");
+            findings.push(format!(
+                "the range of the fingers is measured from other takes of the signer, too: {names}"
+            ));
+        }
         let assumed = crate::hands::find_resting_hands(connection, &self.hands, &stretch.recording)?;
         findings.extend(assumed.iter().map(|side| assumption(*side)));
         let is_seen = |feature: &NotationFeature| {

@@ -193,6 +193,7 @@ message-moving-sign-with-all-tokens = { $name } is a sign with all its tokens
 message-moving-write-sign-delete-them-all = write sign:{ $name } to delete them all
 message-moving-both-sign-recording = { $name } is both a sign and a recording
 message-moving-finger-angles-count-from-straightest-posture = finger angles count from the straightest posture in this signer's takes, which is up to { $n } degrees bent
+message-moving-range-fingers-measured-from-other-takes = the range of the fingers is measured from other takes of the signer, too: { $names }
 message-moving-notation-odd = the notation is odd: { $why }
 message-moving-no-kind-track = { $name } is no kind of track
 message-moving-kinds-skeleton-markers-curves-media = the kinds are: skeleton, markers, curves, media

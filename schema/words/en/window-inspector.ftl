@@ -109,3 +109,4 @@ window-inspector-perhaps-same = Perhaps the same
 window-inspector-make-same = Make one with { $value }
 window-inspector-not-same = One with no other
 window-inspector-same-lexicon-as = Same lexicon as
+window-inspector-range-takes = Finger range from

@@ -193,6 +193,7 @@ message-moving-sign-with-all-tokens = { $name } est un signe avec toutes ses occ
 message-moving-write-sign-delete-them-all = écrivez sign:{ $name } pour les supprimer toutes
 message-moving-both-sign-recording = { $name } est à la fois un signe et un enregistrement
 message-moving-finger-angles-count-from-straightest-posture = les angles des doigts se comptent depuis la posture la plus droite des prises de ce signeur, qui est pliée jusqu’à { $n } degrés
+message-moving-range-fingers-measured-from-other-takes = l’étendue des doigts se mesure aussi dans d’autres prises du signeur : { $names }
 message-moving-notation-odd = la notation est étrange : { $why }
 message-moving-no-kind-track = { $name } n’est pas un genre de piste
 message-moving-kinds-skeleton-markers-curves-media = les genres sont : skeleton, markers, curves, media

@@ -109,3 +109,4 @@ window-inspector-perhaps-same = Peut-être la même
 window-inspector-make-same = Réunir avec { $value }
 window-inspector-not-same = La séparer des autres
 window-inspector-same-lexicon-as = Même lexique que
+window-inspector-range-takes = Étendue des doigts de

@@ -115,6 +115,9 @@ pub(super) fn recording_more(ui: &mut Ui, seen: &PaneInput<'_>, it: &RecordingDe
         if it.joints > 0 {
             name_and_value(ui, seen, words::JOINTS, &it.joints.to_string());
         }
+        if !it.range_takes.is_empty() {
+            name_and_value(ui, seen, words::RANGE_TAKES, &it.range_takes.join(", "));
+        }
     });
     show_recording_tracks(ui, seen, it);
     show_recording_media(ui, seen, it, out);
