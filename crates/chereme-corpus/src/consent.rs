@@ -253,6 +253,11 @@ pub(crate) fn unite_consents(connection: &Connection, from: i64, into: i64) -> C
     Ok(outcome)
 }
 
+/// Returns what the person or the recording at an address agreed to.
+pub(crate) fn load_consent(connection: &Connection, address: &CorpusAddress) -> CorpusResult<PersonConsent> {
+    Ok(load_stored_consent(connection, address)?.0.consent)
+}
+
 /// Returns the consent at an address, and its JSON.
 fn load_stored_consent(connection: &Connection, address: &CorpusAddress) -> CorpusResult<(ConsentRow, Option<String>)> {
     let (of, id) = match address {

@@ -41,6 +41,8 @@ pub struct CorpusOverview {
     pub signers: Vec<SignerRow>,
     /// All people, by name: signers, participants and annotators.
     pub people: Vec<PersonContents>,
+    /// The annotator whose readings count before those of others, if the corpus names one.
+    pub preferred_annotator: Option<String>,
     /// The inventories, oldest first.
     pub inventories: Vec<StoredInventory>,
     /// The values of different inventories that are one.
@@ -125,6 +127,7 @@ impl Corpus {
             lexicons: lexicons::load_lexicon_rows(&reading)?,
             signers: stored_recordings::load_signer_rows(&reading)?,
             people: people::load_people(&reading)?,
+            preferred_annotator: tokens::preferred_annotator(&reading)?,
             inventories: inventories::load_all_inventories(&reading)?,
             equal_values: EqualValues::load_equal_values(&reading)?,
             attributes: stored_attributes::list_attribute_names(&reading)?,

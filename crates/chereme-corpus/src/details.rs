@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use crate::Corpus;
 use crate::address::{self, CorpusAddress, RowName};
+use crate::consent::{self, PersonConsent};
 use crate::db::lexicons;
 use crate::db::people::{self, PersonContents};
 use crate::db::signs::{self, TokenRow};
@@ -153,6 +154,8 @@ pub struct SignDetails {
 pub struct SignerDetails {
     /// Names, attributes and what the person does in the corpus.
     pub person: PersonContents,
+    /// What the person agreed to.
+    pub consent: PersonConsent,
     /// The recordings.
     pub recordings: Vec<RecordingRow>,
     /// The body's measures in metres, from the first recording with a body that can be measured.
@@ -164,6 +167,8 @@ pub struct SignerDetails {
 pub struct RecordingDetails {
     /// The row.
     pub id: i64,
+    /// What is agreed to for this recording alone.
+    pub consent: PersonConsent,
     /// How many joints its skeleton has.
     pub joints: usize,
     /// The body part of each identified joint: part, joint.
@@ -334,6 +339,7 @@ impl Corpus {
             .find_map(|track| track.track_anatomy(&reading).ok()?.anatomy_measures());
         Ok(SignerDetails {
             person: people::load_person(&reading, signer.id)?,
+            consent: consent::load_consent(&reading, &CorpusAddress::Signer(RowName::Number(signer.id)))?,
             recordings: signer_recordings,
             measures,
         })
@@ -348,6 +354,7 @@ impl Corpus {
         let id = address::find_recording_by_name(&reading, recording)?.id;
         let mut details = RecordingDetails {
             id,
+            consent: consent::load_consent(&reading, &CorpusAddress::Recording(RowName::Number(id)))?,
             range_takes: hands::hand_range_takes(&reading, &self.hands, id)?,
             lexicon: lexicons::lexicon_name_of_recording(&reading, id)?,
             joints: 0,

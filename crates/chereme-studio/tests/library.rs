@@ -5,8 +5,8 @@ mod common;
 use std::path::Path;
 
 use chereme_corpus::{
-    Corpus, ImportOptions, PersonContents, ProgressReceiver, TierPropertyChange, TierRequestName, ignore_progress_step,
-    unpack_starter,
+    ConsentAudience, Corpus, ImportOptions, PersonContents, ProgressReceiver, TierPropertyChange, TierRequestName,
+    ignore_progress_step, unpack_starter,
 };
 use chereme_studio::{InterfaceLanguage, StudioOptions};
 use common::*;
@@ -447,6 +447,35 @@ fn people_who_only_annotate_are_listed_changed_and_united() {
     idle(&mut window);
     let of = |name: &str| people().into_iter().find(|person| person.name == name);
     assert_eq!(of("A. Nno").expect("there").attributes[0].text, "north");
+    let overview = || {
+        let corpus = Corpus::open_corpus(&path, "B").expect("opened");
+        corpus.load_corpus_overview(1).expect("read")
+    };
+    click(&mut window, "Their values count first");
+    idle(&mut window);
+    assert_eq!(overview().preferred_annotator.as_deref(), Some("A. Nno"));
+    click(&mut window, "Movement seen by: not known");
+    click(&mut window, "research");
+    idle(&mut window);
+    let consent = || {
+        let corpus = Corpus::open_corpus(&path, "B").expect("opened");
+        let rows = corpus.list_consents().expect("read");
+        rows.into_iter().find(|row| row.name == "A. Nno").map(|row| row.consent)
+    };
+    let agreed = consent().expect("stated");
+    assert_eq!(
+        (agreed.movement, agreed.derived),
+        (Some(ConsentAudience::Research), None)
+    );
+    until(&mut window, "the consent", |window| {
+        has(window, "Movement seen by: research")
+    });
+    for _ in 0..2 {
+        window.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+        window.run_steps(2);
+        idle(&mut window);
+    }
+    assert!(consent().is_none() && overview().preferred_annotator.is_none());
     until(&mut window, "the person", |window| has(window, "Same person as"));
     window.get_by_label("Same person as").focus();
     window.run_steps(2);
@@ -455,6 +484,8 @@ fn people_who_only_annotate_are_listed_changed_and_united() {
     window.run_steps(2);
     idle(&mut window);
     assert_eq!(people().len(), count - 1);
+    until(&mut window, "the selection", |window| !has(window, "Same person as"));
+    assert!(!contains(&window, "there is no signer"));
     let anno = of("Anno").expect("one person");
     assert_eq!((anno.annotator_tiers, anno.aliases), (2, vec!["A. Nno".to_owned()]));
 }

@@ -47,3 +47,4 @@ window-library-no-person-fits = Nobody has this name.
 window-library-signs-in = signer · recordings: { $n }
 window-library-takes-part = participant · tiers: { $n }
 window-library-annotates = annotator · tiers: { $n }
+window-library-preferred = counts first

@@ -47,3 +47,4 @@ window-library-no-person-fits = Personne ne porte ce nom.
 window-library-signs-in = signeur · enregistrements : { $n }
 window-library-takes-part = participant · acteurs : { $n }
 window-library-annotates = annotateur · acteurs : { $n }
+window-library-preferred = compte d’abord

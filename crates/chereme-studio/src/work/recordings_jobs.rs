@@ -1,8 +1,8 @@
 //! Jobs that describe, show and delete recordings, their signers and their signs.
 
 use chereme_corpus::{
-    CorpusAddress, DeleteOptions, FitOptions, LinkedRecordings, MediaChange, ObjectDetails, PersonChange,
-    RecordingChange, RowName, SignChange, SignerChange, TrackChange,
+    ConsentChange, CorpusAddress, DeleteOptions, FitOptions, LinkedRecordings, MediaChange, ObjectDetails,
+    PersonChange, RecordingChange, RowName, SignChange, SignerChange, TrackChange,
 };
 
 use super::{CorpusJob, JobAbout, WorkOutcome};
@@ -37,6 +37,16 @@ pub(crate) fn change_person(name: RowName, change: PersonChange) -> CorpusJob {
 /// Makes a person one with another, who stays.
 pub(crate) fn unite_people(person: RowName, into: RowName) -> CorpusJob {
     CorpusJob::new_change_job(move |corpus, _| corpus.unite_people(&[person], &into))
+}
+
+/// Changes what a person or a recording agreed to.
+pub(crate) fn change_consent_job(who: CorpusAddress, change: ConsentChange) -> CorpusJob {
+    CorpusJob::new_change_job(move |corpus, _| corpus.change_consent(&[who], &change))
+}
+
+/// Names the annotator whose readings count before those of others, or nobody.
+pub(crate) fn prefer_annotator_job(name: Option<String>) -> CorpusJob {
+    CorpusJob::new_change_job(move |corpus, _| corpus.prefer_annotator(name.as_deref()))
 }
 
 /// Changes a sign.

@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 
 use chereme_corpus::{
-    ConsentAudience, MediaChange, PersonAttribute, PersonChange, PersonContents, RecordingChange, RecordingDetails,
-    RecordingGlance, RowName, SignChange, SignDetails, SignerChange, SignerDetails, TrackKind, ValueDetails,
+    ConsentAudience, ConsentChange, CorpusAddress, MediaChange, PersonAttribute, PersonChange, PersonConsent,
+    PersonContents, RecordingChange, RecordingDetails, RecordingGlance, RowName, SignChange, SignDetails, SignerChange,
+    SignerDetails, TrackKind, ValueDetails,
 };
 use chereme_motion::{BodySide, RecordingInstant};
 use chereme_sign::ComponentInventory;
@@ -23,7 +24,7 @@ use crate::panes::complete_pane::fitting_candidates;
 use crate::panes::import::import_people;
 use crate::panes::library::library_data as library;
 use crate::panes::timeline::timeline_data::time_text;
-use crate::words::{fill_text_braces, inspector as words};
+use crate::words::{InterfaceText, fill_text_braces, inspector as words};
 use crate::work::recordings_jobs;
 
 pub(super) fn show_recording_details(
@@ -119,6 +120,8 @@ pub(super) fn recording_more(ui: &mut Ui, seen: &PaneInput<'_>, it: &RecordingDe
             name_and_value(ui, seen, words::RANGE_TAKES, &it.range_takes.join(", "));
         }
     });
+    let who = CorpusAddress::Recording(RowName::Number(it.id));
+    show_consent(ui, seen, who, &it.consent, out);
     show_recording_tracks(ui, seen, it);
     show_recording_media(ui, seen, it, out);
     if it.roles.is_empty() {
@@ -275,12 +278,7 @@ fn show_person_details(ui: &mut Ui, seen: &PaneInput<'_>, person: &PersonContent
             );
         }
         if let Some(first) = person.attributes.first() {
-            let all = [
-                (ConsentAudience::Nobody, words::SEEN_BY_ME),
-                (ConsentAudience::Research, words::SEEN_BY_RESEARCH),
-                (ConsentAudience::Public, words::SEEN_BY_ALL),
-            ]
-            .map(|(audience, text)| (audience, seen.say_text(text).to_owned()));
+            let all = audience_choices(seen, words::SEEN_BY_ME);
             if let Some(audience) = show_inspector_choice(ui, seen, words::ATTRIBUTES_SEEN_BY, &first.audience, &all) {
                 change(
                     out,
@@ -308,6 +306,67 @@ fn show_person_details(ui: &mut Ui, seen: &PaneInput<'_>, person: &PersonContent
         );
         ui.weak(text);
     }
+    if person.annotator_tiers > 0 {
+        show_preference(ui, seen, &person.name, out);
+    }
+}
+
+/// Shows whether the values of an annotator count before those of others, to change.
+pub(super) fn show_preference(ui: &mut Ui, seen: &PaneInput<'_>, annotator: &str, out: &mut CommandOutbox) {
+    let mut preferred = seen.snapshot.overview.preferred_annotator.as_deref() == Some(annotator);
+    let box_response = ui.checkbox(&mut preferred, seen.say_text(words::PREFERRED));
+    if box_response
+        .on_hover_text(seen.say_text(words::PREFERRED_HINT))
+        .changed()
+    {
+        let name = preferred.then(|| annotator.to_owned());
+        out.request_work(recordings_jobs::prefer_annotator_job(name));
+    }
+}
+
+/// Returns the audiences to choose from, the narrowest under a name of its own.
+fn audience_choices(seen: &PaneInput<'_>, narrowest: InterfaceText) -> Vec<(ConsentAudience, String)> {
+    let all = [
+        (ConsentAudience::Nobody, narrowest),
+        (ConsentAudience::Research, words::SEEN_BY_RESEARCH),
+        (ConsentAudience::Public, words::SEEN_BY_ALL),
+    ];
+    all.map(|(audience, text)| (audience, seen.say_text(text).to_owned()))
+        .into()
+}
+
+/// Shows what a person or a recording agreed to, to change.
+fn show_consent(ui: &mut Ui, seen: &PaneInput<'_>, who: CorpusAddress, now: &PersonConsent, out: &mut CommandOutbox) {
+    let title = RichText::new(seen.say_text(words::AGREED)).small();
+    let is_person = matches!(who, CorpusAddress::Signer(_));
+    let folded = CollapsingHeader::new(title).id_salt("agreed").default_open(is_person);
+    folded.show(ui, |ui| {
+        let mut change = ConsentChange::default();
+        show_inspector_grid(ui, "agreed", |ui| {
+            let mut all = vec![(None, seen.say_text(words::UNKNOWN).to_owned())];
+            let named = audience_choices(seen, words::SEEN_BY_NOBODY).into_iter();
+            all.extend(named.map(|(audience, name)| (Some(audience), name)));
+            for (text, now, asked) in [
+                (words::AGREED_MOVEMENT, &now.movement, &mut change.movement),
+                (words::AGREED_ANNOTATION, &now.annotation, &mut change.annotation),
+                (words::AGREED_DERIVED, &now.derived, &mut change.derived),
+            ] {
+                *asked = show_inspector_choice(ui, seen, text, now, &all);
+            }
+            for (text, now, asked) in [
+                (words::AGREED_DAY, &now.day, &mut change.day),
+                (words::AGREED_FORM, &now.form, &mut change.form),
+            ] {
+                let key = Id::unique(("agreed", who.to_string(), text.text_id()));
+                let typed = show_editable_line(ui, seen, key, text, now.as_deref().unwrap_or_default());
+                *asked = typed.map(none_if_blank);
+            }
+        });
+        ui.add(Label::new(RichText::new(seen.say_text(words::AGREED_HINT)).small().weak()).wrap());
+        if change != ConsentChange::default() {
+            out.request_work(recordings_jobs::change_consent_job(who, change));
+        }
+    });
 }
 
 /// Returns the parts of a list that a person typed.
@@ -346,6 +405,8 @@ pub(super) fn signer_more(
     out: &mut CommandOutbox,
 ) {
     show_person_details(ui, seen, &signer.person, out);
+    let who = CorpusAddress::Signer(RowName::Number(signer.person.id));
+    show_consent(ui, seen, who, &signer.consent, out);
     show_inspector_lines(ui, seen, "measures", &inspector_data::body_measure_lines(signer));
     let n = signer.recordings.len();
     let text = format!("{} ({n})", seen.say_text(words::RECORDINGS));

@@ -81,6 +81,9 @@ pub(super) fn show_tier_details(
             &fill_text_braces(seen.say_text(words::FILLED), &counts),
         );
     });
+    if let Some(annotator) = &row.annotator {
+        super::about::show_preference(ui, seen, annotator, out);
+    }
 }
 
 fn hand_choices(seen: &PaneInput<'_>) -> Vec<(Option<AnnotatedHands>, String)> {

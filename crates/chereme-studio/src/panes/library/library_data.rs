@@ -74,6 +74,7 @@ pub(crate) struct LibraryPersonRow {
 /// Returns the people with a name or an attribute that contains `filter`, ignoring case and accents.
 pub(crate) fn library_person_rows(
     people: &[PersonContents],
+    preferred: Option<&str>,
     filter: &str,
     language: InterfaceLanguage,
 ) -> Vec<LibraryPersonRow> {
@@ -86,12 +87,14 @@ pub(crate) fn library_person_rows(
         ];
         let roles = roles.into_iter().filter(|(_, n)| *n > 0);
         let roles = roles.map(|(text, n)| fill_text_braces(text.text_in_language(language), &[("n", &n)]));
+        let is_preferred = preferred == Some(person.name.as_str());
+        let counts_first = is_preferred.then(|| words::PREFERRED.text_in_language(language).to_owned());
         let attributes = person.attributes.iter();
         let said = attributes.map(|attribute| format!("{}={}", attribute.name, attribute.text));
         LibraryPersonRow {
             id: person.id,
             name: person.name.clone(),
-            about: roles.chain(said).collect::<Vec<_>>().join(" · "),
+            about: roles.chain(counts_first).chain(said).collect::<Vec<_>>().join(" · "),
         }
     };
     let fits = |(person, row): &(&PersonContents, LibraryPersonRow)| {
