@@ -1,7 +1,10 @@
 //! The content of the inspector as lines and texts, without widgets.
 
-use chereme_corpus::{RecordingGlance, SignerDetails, TierContents, TrackRow};
+use std::collections::BTreeMap;
+
+use chereme_corpus::{RecordingGlance, SignerDetails, TierContents, TokenValue, TrackRow, ValueOpinion};
 use chereme_motion::RecordingInstant;
+use chereme_sign::SignComponent;
 
 use crate::panes::library::library_data as library;
 use crate::panes::timeline::timeline_data::time_text;
@@ -138,6 +141,37 @@ pub(crate) fn read_time(text: &str) -> Option<RecordingInstant> {
     (micros.is_finite() && (0.0..1e15).contains(&micros)).then(|| RecordingInstant::from_micros(micros.round() as i64))
 }
 
+/// A row of the coding of a token.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum CodingRow<'a> {
+    /// A value that counts.
+    Value(&'a TokenValue),
+    /// A proposal, or one of the values in dispute.
+    Opinion(&'a ValueOpinion),
+}
+
+/// Returns the coding of a token by component and hand, each row with its field, such as `initial.right.placement`; the
+/// opinions about a field stand below its values.
+pub(crate) fn coding_rows<'a>(values: &'a [TokenValue], opinions: &'a [ValueOpinion]) -> Vec<(&'a str, CodingRow<'a>)> {
+    let values = values.iter().map(|value| (&*value.field, CodingRow::Value(value)));
+    let opinions = opinions
+        .iter()
+        .map(|opinion| (&*opinion.field, CodingRow::Opinion(opinion)));
+    let mut rows: Vec<_> = values.chain(opinions).collect();
+    // The phases of a hand keep their order.
+    let place = |field: &str| rows.iter().position(|(other, _)| *other == field);
+    let rank = |field: &str| {
+        let has = |name: &str| field.split('.').any(|part| part == name);
+        let component = SignComponent::ALL_COMPONENTS
+            .iter()
+            .position(|one| has(one.component_name()));
+        (component, has("left") || has("weak"), place(field))
+    };
+    let ranks: BTreeMap<&str, _> = rows.iter().map(|(field, _)| (*field, rank(field))).collect();
+    rows.sort_by_key(|(field, _)| ranks[field]);
+    rows
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -171,6 +205,47 @@ mod tests {
         ] {
             assert_eq!(metres_text(length), text);
         }
+    }
+
+    #[test]
+    fn opinions_stand_at_the_row_of_their_field() {
+        let value = |field: &str| TokenValue {
+            field: field.to_owned(),
+            component: SignComponent::Placement,
+            state: chereme_corpus::ValueState::Value,
+            value: None,
+            inventory: None,
+            annotation: None,
+        };
+        let opinion = |field: &str| ValueOpinion {
+            field: field.to_owned(),
+            value: "U".to_owned(),
+            standing: chereme_corpus::OpinionStanding::Disputed,
+            by: None,
+            confidence: None,
+        };
+        let values = [
+            "movement",
+            "final.right.placement",
+            "initial.right.placement",
+            "left.placement",
+        ]
+        .map(value);
+        let opinions = ["right.configuration", "left.configuration", "initial.right.placement"].map(opinion);
+        let rows = coding_rows(&values, &opinions);
+        let fields: Vec<&str> = rows.iter().map(|(field, _)| *field).collect();
+        let wanted = [
+            "right.configuration",
+            "left.configuration",
+            "final.right.placement",
+            "initial.right.placement",
+            "initial.right.placement",
+            "left.placement",
+            "movement",
+        ];
+        assert_eq!(fields, wanted);
+        assert_eq!(rows[3].1, CodingRow::Value(&values[2]));
+        assert_eq!(rows[4].1, CodingRow::Opinion(&opinions[2]));
     }
 
     #[test]

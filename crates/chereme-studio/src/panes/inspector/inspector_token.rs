@@ -4,9 +4,10 @@ use chereme_corpus::{CorpusAddress, OpinionStanding, TokenDetails, ValueOpinion}
 use chereme_motion::{RecordingInstant, TimeSpan};
 use eframe::egui::{CollapsingHeader, Id, Label, RichText, Ui};
 
+use super::inspector_data::{self, CodingRow};
 use super::inspector_edit::{name_and_value, show_editable_field, show_inspector_grid};
 use super::inspector_ui::{set_annotation, show_thing_link, span_text, values_like};
-use super::{InspectorPane, inspector_data, inspector_notation};
+use super::{InspectorPane, inspector_notation};
 use crate::command::{CommandOutbox, WindowCommand};
 use crate::context::PaneInput;
 use crate::model::InspectedThing;
@@ -14,6 +15,7 @@ use crate::panes::library::library_data::origin_text;
 use crate::panes::longest_word;
 use crate::panes::recombine::recipe_of;
 use crate::panes::search::{feature_text, results};
+use crate::panes::timeline::timeline_paint::hatch_proposal;
 use crate::pickers::pickers_hamnosys;
 use crate::words::inspector as words;
 use crate::work::recordings_jobs;
@@ -165,13 +167,25 @@ fn show_token_coding(
         ui.weak(seen.say_text(words::UNSET_ALL));
         ui.end_row();
     }
-    let called: Vec<String> = token
-        .values
-        .iter()
-        .map(|coded| field_name(seen, &coded.field))
-        .collect();
+    let rows = inspector_data::coding_rows(&token.values, &token.opinions);
+    let called: Vec<String> = rows.iter().map(|(field, _)| field_name(seen, field)).collect();
     let names = names.max(longest_word(ui, called.iter().map(String::as_str)));
-    for (value, name) in token.values.iter().zip(&called) {
+    let mut above = None;
+    for ((_, row), name) in rows.iter().zip(&called) {
+        let repeated = above.replace(name) == Some(name);
+        let value = match row {
+            CodingRow::Value(value) => value,
+            CodingRow::Opinion(opinion) => {
+                ui.scope(|ui| {
+                    ui.set_max_width(names);
+                    let name = if repeated { "" } else { name };
+                    ui.add(Label::new(RichText::new(name).weak()).wrap());
+                });
+                show_opinion(ui, seen, opinion);
+                ui.end_row();
+                continue;
+            }
+        };
         let current_text = value.state.missing_text().or(value.value.as_deref());
         let now = current_text.unwrap_or_default().to_owned();
         let text = Label::new(RichText::new(name).weak()).wrap();
@@ -197,13 +211,21 @@ fn show_token_coding(
         });
         ui.end_row();
     }
-    for opinion in &token.opinions {
-        ui.scope(|ui| {
-            ui.set_max_width(names);
-            ui.add(Label::new(RichText::new(field_name(seen, &opinion.field)).weak()).wrap());
-        });
-        ui.add(Label::new(RichText::new(opinion_text(seen, opinion)).italics()).wrap());
-        ui.end_row();
+    if !token.range_takes.is_empty() {
+        name_and_value(ui, seen, words::RANGE_TAKES, &token.range_takes.join(", "));
+    }
+}
+
+/// Shows a value that does not count: hatched if a detector proposes it, in the colour of warnings if it is disputed.
+fn show_opinion(ui: &mut Ui, seen: &PaneInput<'_>, opinion: &ValueOpinion) {
+    let mut text = RichText::new(opinion_text(seen, opinion)).italics();
+    if opinion.standing == OpinionStanding::Disputed {
+        text = text.color(seen.pane_colours().warning);
+    }
+    let shown = ui.add(Label::new(text).wrap());
+    if opinion.standing == OpinionStanding::Proposed {
+        let colour = seen.pane_colours().component.gamma_multiply(0.3);
+        hatch_proposal(ui.painter(), shown.rect.expand(2.0), colour);
     }
 }
 
