@@ -10,7 +10,7 @@ mod inspector_ui;
 
 use std::collections::BTreeMap;
 
-use chereme_corpus::ObjectDetails;
+use chereme_corpus::{CorpusError, ObjectDetails};
 use eframe::egui::{ScrollArea, Ui};
 
 use super::PaneInterface;
@@ -101,6 +101,8 @@ impl PaneInterface for InspectorPane {
         let lookup_result = match ended {
             Ok(WorkOutcome::Looked(details)) => Ok(details.clone()),
             Ok(_) => return,
+            // It was deleted, united with something else or undone, so that the selection is shown again.
+            Err(CorpusError::Wrong { .. }) if self.turned.as_ref() == Some(&thing) => return self.turned = None,
             Err(error) => Err(error.to_string()),
         };
         self.known.insert(thing, lookup_result);
