@@ -1,6 +1,6 @@
 //! The panes by name, and their places.
 
-use eframe::egui::{Id, Vec2, vec2};
+use eframe::egui::{Context, Id, Vec2, vec2};
 use egui_tiles::{Container, Linear, LinearDir, Tile, TileId, Tiles, Tree};
 use serde::{Deserialize, Serialize};
 
@@ -66,6 +66,20 @@ impl PaneKind {
             Self::Import => words::import_words::TITLE,
             Self::Film => words::film_words::TITLE,
         }
+    }
+
+    /// Notes that the pane is in sight, so that others know what it shows.
+    pub(crate) fn note_sight(self, ctx: &Context) {
+        let pass = ctx.cumulative_pass_nr();
+        ctx.data_mut(|data| data.insert_temp(Id::unique(("pane in sight", self as u8)), pass));
+    }
+
+    /// Returns whether the pane is in sight.
+    pub(crate) fn is_in_sight(self, ctx: &Context) -> bool {
+        let pass = ctx.cumulative_pass_nr();
+        let last: Option<u64> = ctx.data(|data| data.get_temp(Id::unique(("pane in sight", self as u8))));
+        // It may be drawn after the pane that asks.
+        last.is_some_and(|last| last + 1 >= pass)
     }
 }
 

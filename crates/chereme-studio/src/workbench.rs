@@ -100,6 +100,7 @@ impl Behavior<PaneKind> for TileWorkbench<'_> {
                 *self.pane = Some(*kind);
             }
             let before = ui.output(|output| output.events.len());
+            kind.note_sight(ui.ctx());
             self.panes.get_mut(*kind).ui(ui, &self.seen, self.out);
             ui.allocate_space(ui.available_size());
             self.keep_cursor(ui, rect, *kind, before);

@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 
 use chereme_corpus::MediaTrackRow;
 use chereme_motion::RecordingInstant;
-use eframe::egui::{Context, Id};
+use eframe::egui::Context;
 
 use crate::model::CorpusSnapshot;
 use screen::FilmScreen;
@@ -92,20 +92,4 @@ impl RecordingFilms {
     pub(crate) fn borrow_screens(&self) -> RefMut<'_, Vec<FilmScreen>> {
         self.screens.borrow_mut()
     }
-
-    /// Notes that the film pane is in sight, so that the stage does not show the films too.
-    pub(crate) fn pane_is_seen(ctx: &Context) {
-        let pass = ctx.cumulative_pass_nr();
-        ctx.data_mut(|data| data.insert_temp(Id::unique(FILM_PANE_ID), pass));
-    }
-
-    /// Returns whether the film pane is in sight.
-    pub(crate) fn is_pane_seen(ctx: &Context) -> bool {
-        let pass = ctx.cumulative_pass_nr();
-        let last: Option<u64> = ctx.data(|data| data.get_temp(Id::unique(FILM_PANE_ID)));
-        // Its pane may be drawn after this one in a frame.
-        last.is_some_and(|last| last + 1 >= pass)
-    }
 }
-
-const FILM_PANE_ID: &str = "film pane";

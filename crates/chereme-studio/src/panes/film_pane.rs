@@ -6,7 +6,6 @@ use super::{ActionOutcome, PaneInterface, film_screens};
 use crate::action::Action;
 use crate::command::{ChooserPurpose, CommandOutbox, WindowCommand};
 use crate::context::PaneInput;
-use crate::film::RecordingFilms;
 use crate::miniatures;
 use crate::words::film_words as words;
 
@@ -16,7 +15,6 @@ pub(crate) struct FilmPane;
 
 impl PaneInterface for FilmPane {
     fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
-        RecordingFilms::pane_is_seen(ui.ctx());
         let (whole, _) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
         if seen.films.are_there() {
             film_screens::show_film_screens(ui, seen, out, whole);

@@ -15,6 +15,7 @@ use super::stage_data::{self, StageInset, StagePart};
 use crate::action::Action;
 use crate::command::{CommandOutbox, WindowCommand};
 use crate::context::PaneInput;
+use crate::layout::PaneKind;
 use crate::pickers;
 use crate::words::{fill_text_braces, stage_words as words};
 
@@ -79,6 +80,11 @@ pub(super) fn show_stage_insets(
 
 /// Shows the picture of a selected proposal next to the close-up of its hand, with its confidence.
 pub(super) fn show_inset_proposal(ui: &Ui, seen: &PaneInput<'_>, insets: &[StageInset]) {
+    // Who recombines does not decide on proposals, and elsewhere nobody sees what is selected.
+    let is_in_sight = |pane: PaneKind| pane.is_in_sight(ui.ctx());
+    if seen.shown.made.is_some() || is_in_sight(PaneKind::Recombine) || !is_in_sight(PaneKind::Timeline) {
+        return;
+    }
     let Some(proposal) = SelectedProposal::from_selected_proposal(seen) else {
         return;
     };

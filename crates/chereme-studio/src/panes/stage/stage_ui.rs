@@ -23,7 +23,7 @@ use super::{
 use crate::action::Action;
 use crate::command::{CommandOutbox, WindowCommand};
 use crate::context::PaneInput;
-use crate::film::RecordingFilms;
+use crate::layout::PaneKind;
 use crate::miniatures;
 use crate::panes::film_screens;
 use crate::settings::stage_settings::OriginalComparison;
@@ -102,7 +102,7 @@ fn show_stage_films(
     whole: Rect,
 ) -> Option<Rect> {
     let made = seen.shown.made.is_some();
-    if made || !seen.films.are_there() || RecordingFilms::is_pane_seen(ui.ctx()) {
+    if made || !seen.films.are_there() || PaneKind::Film.is_in_sight(ui.ctx()) {
         return Some(whole);
     }
     if why_nothing(stage, seen) == Some(words::NO_MOVEMENT) {
