@@ -9,6 +9,9 @@ use super::recombine_fields::{show_inventory_line, show_number_slider};
 use super::recombine_settings::show_recipe_text_line;
 use crate::context::PaneInput;
 
+/// The width of a slider with its number, in points.
+const SHARE_SLIDER_WIDTH_POINTS: f32 = 150.0;
+
 /// Shows the parts of a face, each with its value, its picture and the share of it; returns whether the user changed one.
 pub(super) fn show_face_parts(
     ui: &mut Ui,
@@ -31,6 +34,10 @@ pub(super) fn show_face_parts(
                 FacePart::Mouthing => show_recipe_text_line(ui, name, "bOl", &mut value),
                 _ => show_inventory_line(ui, seen, id.with(name), &[inventory], [name, ""], &mut value),
             };
+            if !value.is_empty() && ui.available_size_before_wrap().x < SHARE_SLIDER_WIDTH_POINTS {
+                // A slider is a row of its own, which does not wrap.
+                ui.end_row();
+            }
             changed |= !value.is_empty() && show_number_slider(ui, name, &mut share, 0.0..=1.0, "×");
         });
         let part_share = Some(share).filter(|share| *share != 1.0);
