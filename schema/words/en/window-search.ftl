@@ -166,3 +166,4 @@ window-search-cross-rows = Rows
 window-search-cross-columns = Columns
 window-search-cross-copy = Copy the table
 window-search-cross-left-out = { $n } more columns are not shown; the copy has them all.
+window-search-value-said = where this value is

@@ -166,3 +166,4 @@ window-search-cross-rows = Lignes
 window-search-cross-columns = Colonnes
 window-search-cross-copy = Copier le tableau
 window-search-cross-left-out = { $n } autres colonnes ne sont pas montrées ; la copie les a toutes.
+window-search-value-said = où cette valeur est

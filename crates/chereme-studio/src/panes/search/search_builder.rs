@@ -43,7 +43,9 @@ pub(crate) enum QueryCondition {
     /// Similarity to an example: the weight of each component in the order of [`Component::ALL_COMPONENTS`], and the least
     /// similarity.
     Like(ExampleToken, [f64; 5], Option<f64>),
-    /// A term that the builder cannot change.
+    /// A condition on a component, and those on who says this very value.
+    Said(Box<QueryCondition>, Vec<QueryCondition>),
+    /// A term that the builder cannot change, but for the least number that it wants.
     Written(QueryExpression),
 }
 
@@ -93,6 +95,13 @@ fn of_test(what: &TestSubject, not: bool) -> Option<QueryCondition> {
             of_comparison(ConditionSubject::Property(*property), comparison, not)?
         }
         (TestSubject::Whole(field, comparison), not) => of_comparison(ConditionSubject::Text(*field), comparison, not)?,
+        (TestSubject::Said(field, comparison, sources), not) => {
+            let value = of_comparison(ConditionSubject::Component(field.clone()), comparison, not)?;
+            let sources = sources
+                .iter()
+                .map(|test| condition_from_term(&QueryExpression::Test(test.clone())));
+            QueryCondition::Said(Box::new(value), sources.collect())
+        }
         (TestSubject::Words(field, words), false) => QueryCondition::Words(*field, words.clone()),
         (TestSubject::Time(field, test), false) => QueryCondition::Time(*field, *test),
         _ => return None,
@@ -156,6 +165,13 @@ pub(crate) fn term_from_condition(row: &QueryCondition) -> QueryExpression {
     };
     match row {
         QueryCondition::Written(expr) => expr.clone(),
+        QueryCondition::Said(value, sources) => {
+            let tests = sources.iter().filter_map(|source| match term_from_condition(source) {
+                QueryExpression::Test(test) => Some(test),
+                _ => None,
+            });
+            said_term(term_from_condition(value), tests.collect())
+        }
         QueryCondition::Words(field, words) => test(TestSubject::Words(*field, words.clone())),
         QueryCondition::Time(field, time) => test(TestSubject::Time(*field, *time)),
         QueryCondition::Like(example, weights, above) => QueryExpression::Like(LikeSearch {
@@ -177,6 +193,24 @@ pub(crate) fn term_from_condition(row: &QueryCondition) -> QueryExpression {
                 _ => term,
             }
         }
+    }
+}
+
+/// Returns the term of a component with the conditions on who says the value. Nobody says that there is none.
+fn said_term(value: QueryExpression, sources: Vec<QueryTest>) -> QueryExpression {
+    let is_missing = |value: &QueryValue| matches!(value.wanted, WantedValue::Missing(_));
+    match value {
+        QueryExpression::Not(inner) => QueryExpression::Not(Box::new(said_term(*inner, sources))),
+        QueryExpression::Test(QueryTest {
+            at,
+            subject_at,
+            what: TestSubject::Component(field, comparison),
+        }) if !sources.is_empty() && !comparison.values.iter().any(is_missing) => QueryExpression::Test(QueryTest {
+            at,
+            subject_at,
+            what: TestSubject::Said(field, comparison, sources),
+        }),
+        plain => plain,
     }
 }
 
@@ -259,6 +293,8 @@ mod tests {
             "gloss=CHAT overlaps nonmanual.brows=raised",
             "not (gloss=A gloss=B)",
             "gloss~ESCRGO~2 tier(\"Mouthing\")=ma*",
+            "configuration=U{by=anna}",
+            "not right.configuration=U,V{by=anna,ben proposed:yes confidence>=0.8} gloss=A",
         ] {
             let query: TokenQuery = text.parse().expect(text);
             let again: TokenQuery = round_trip(text).parse().expect(text);
@@ -290,6 +326,25 @@ mod tests {
             [QueryCondition::Values(_, ConditionRelation::NotAtAll, _)]
         ));
         assert!(matches!(of("a or b")[..], [QueryCondition::Written(_)]));
+        let [QueryCondition::Said(value, sources)] = &of("configuration=U{by=anna confidence>0.8}")[..] else {
+            panic!("it has sources");
+        };
+        assert_eq!(query_text_from_rows(&[(**value).clone()]), "configuration=U");
+        assert!(matches!(
+            sources[..],
+            [
+                QueryCondition::Values(
+                    ConditionSubject::Property(WholeTokenProperty::By),
+                    ConditionRelation::Is,
+                    _
+                ),
+                QueryCondition::Written(_)
+            ]
+        ));
+        let none = QueryCondition::Said(value.clone(), Vec::new());
+        assert_eq!(query_text_from_rows(&[none]), "configuration=U");
+        let unset = QueryCondition::Said(Box::new(of("configuration=unset").remove(0)), sources.clone());
+        assert_eq!(query_text_from_rows(&[unset]), "configuration=unset");
         let [QueryCondition::Like(_, weights, _)] = of("like token:1 on placement:3")[..] else {
             panic!("it is by example");
         };

@@ -1,8 +1,12 @@
 //! The builder: each condition of the query as a row that can be changed by looking and clicking.
 
 use std::collections::BTreeMap;
+use std::ops::Bound;
 
-use chereme_sign::query::{MissingReason, TextField, TextPattern, TimeField, TimeTest, TokenQuery, WholeTokenProperty};
+use chereme_sign::query::{
+    AttributeTest, MissingReason, QueryExpression, QueryTest, TestSubject, TextField, TextPattern, TimeField, TimeTest,
+    TokenQuery, WholeTokenProperty,
+};
 use chereme_sign::{ComponentField, ComponentInventory, HandRef, SignComponent, SignPhase};
 use eframe::egui::{Button, ComboBox, DragValue, RichText, Role, Sense, Slider, Ui, Vec2, WidgetInfo};
 
@@ -32,6 +36,8 @@ pub(crate) struct ConditionRows {
     begun: Option<usize>,
 }
 
+/// A number of rows above those of any query that somebody reads as rows.
+const MAX_SHOWN_ROWS: usize = 1000;
 /// Side of an example's figure, in points.
 const EXAMPLE_PICTURE_SIZE_POINTS: f32 = 72.0;
 
@@ -111,6 +117,7 @@ pub(super) fn show_condition_rows(
 /// Returns whether a row shows pictures, and so is higher than others.
 fn has_pictures(seen: &PaneInput<'_>, row: &QueryCondition) -> bool {
     match row {
+        QueryCondition::Said(value, _) => has_pictures(seen, value),
         QueryCondition::Values(ConditionSubject::Component(field), how, values) => {
             let shown = !matches!(how, ConditionRelation::Has | ConditionRelation::Missing(_)) && !values.is_empty();
             shown && query_field_inventory(seen, field).is_some()
@@ -126,6 +133,7 @@ fn is_complete(row: &QueryCondition) -> bool {
             matches!(how, ConditionRelation::Has | ConditionRelation::Missing(_)) || !values.is_empty()
         }
         QueryCondition::Words(_, values) => !values.is_empty(),
+        QueryCondition::Said(value, _) => is_complete(value),
         _ => true,
     }
 }
@@ -290,6 +298,42 @@ fn show_condition_row(
                 weights,
                 above,
             );
+        }
+        QueryCondition::Said(value, sources) => {
+            show_condition_row(ui, rows, seen, at, value, examples, out);
+            ui.weak(seen.say_text(words::VALUE_SAID));
+            ui.end_row();
+            let mut gone = None;
+            ui.vertical(|ui| {
+                for (place, source) in sources.iter_mut().enumerate() {
+                    ui.push_id(place, |ui| {
+                        ui.horizontal(|ui| {
+                            // Texts that are being typed are kept by row, and no other row has this number.
+                            let row = (at + 1) * MAX_SHOWN_ROWS + place;
+                            show_condition_row(ui, rows, seen, row, source, examples, out);
+                            if ui.small_button("−").clicked() {
+                                gone = Some(place);
+                            }
+                        });
+                    });
+                }
+            });
+            if let Some(place) = gone {
+                sources.remove(place);
+            }
+        }
+        QueryCondition::Written(QueryExpression::Test(QueryTest {
+            what:
+                TestSubject::Attribute(
+                    name,
+                    AttributeTest::Number(Bound::Included(least) | Bound::Excluded(least), Bound::Unbounded),
+                ),
+            ..
+        })) => {
+            ui.label(format!("{name} >"));
+            let field = ui.add(DragValue::new(least).speed(0.01).max_decimals(3));
+            let now = *least;
+            field.widget_info(|| WidgetInfo::slider(true, now, &*name));
         }
         QueryCondition::Written(expr) => {
             ui.label(RichText::new(expr.to_string()).monospace());
