@@ -216,6 +216,10 @@ mod tests {
             value: None,
             inventory: None,
             annotation: None,
+            by: Vec::new(),
+            confidence: None,
+            detector: None,
+            proposed: None,
         };
         let opinion = |field: &str| ValueOpinion {
             field: field.to_owned(),
@@ -223,6 +227,7 @@ mod tests {
             standing: chereme_corpus::OpinionStanding::Disputed,
             by: None,
             confidence: None,
+            detector: None,
         };
         let values = [
             "movement",

@@ -1,6 +1,6 @@
 //! The editable details of a token.
 
-use chereme_corpus::{CorpusAddress, OpinionStanding, TokenDetails, ValueOpinion};
+use chereme_corpus::{CorpusAddress, OpinionStanding, TokenDetails, TokenValue, ValueOpinion};
 use chereme_motion::{RecordingInstant, TimeSpan};
 use eframe::egui::{CollapsingHeader, Id, Label, RichText, Ui};
 
@@ -210,10 +210,26 @@ fn show_token_coding(
             }
         });
         ui.end_row();
+        let said = value_source_text(value);
+        if !said.is_empty() {
+            ui.label("");
+            ui.add(Label::new(RichText::new(said).small().weak()).wrap());
+            ui.end_row();
+        }
     }
     if !token.range_takes.is_empty() {
         name_and_value(ui, seen, words::RANGE_TAKES, &token.range_takes.join(", "));
     }
+}
+
+/// Returns who says a value: the annotators, and the detector with its confidence, and what it proposed if a person
+/// corrected that.
+fn value_source_text(value: &TokenValue) -> String {
+    let confidence = value.confidence.map(|sure| format!("{sure:.2}"));
+    let proposed = value.proposed.as_ref().map(|proposed| format!("({proposed})"));
+    let people = Some(value.by.join(", ")).filter(|names| !names.is_empty());
+    let parts = [people, value.detector.clone(), confidence, proposed];
+    parts.into_iter().flatten().collect::<Vec<_>>().join(" · ")
 }
 
 /// Shows a value that does not count: hatched if a detector proposes it, in the colour of warnings if it is disputed.
@@ -236,7 +252,7 @@ fn opinion_text(seen: &PaneInput<'_>, opinion: &ValueOpinion) -> String {
     let author = opinion
         .by
         .clone()
-        .filter(|_| opinion.standing != OpinionStanding::Proposed);
+        .filter(|_| !matches!(opinion.standing, OpinionStanding::Proposed | OpinionStanding::Rejected));
     let reasons: Vec<String> = [standing.to_owned()]
         .into_iter()
         .chain(author)

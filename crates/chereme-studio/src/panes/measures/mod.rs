@@ -151,7 +151,7 @@ impl MeasuresPane {
                     for field in &self.known {
                         let mut is_chosen = fields.contains(field);
                         if ui.checkbox(&mut is_chosen, facet_name(field, seen)).changed() {
-                            let is_set = FIELD_SETS.iter().any(|set| [&set.name] == fields[..]);
+                            let is_set = FIELD_SETS.iter().any(|set| fields[..] == [set.name.as_str()]);
                             fields.retain(|other| other != field && !is_set);
                             fields.extend(is_chosen.then(|| field.clone()));
                         }
@@ -175,7 +175,7 @@ impl MeasuresPane {
             ui.small(seen.say_text(words::COLUMN_SETS));
             ui.horizontal(|ui| {
                 for set in FIELD_SETS.iter() {
-                    let is_chosen = [&set.name] == fields[..];
+                    let is_chosen = fields[..] == [set.name.as_str()];
                     if ui.selectable_label(is_chosen, &set.name).clicked() {
                         *fields = vec![set.name.clone()];
                     }
