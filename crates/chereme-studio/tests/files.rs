@@ -146,6 +146,7 @@ fn an_export_for_others_leaves_out_and_names_what_nobody_agreed_to() {
     assert!(shows(&window, "\"escargot\" is withheld from public because of"));
     assert!(!to.join("recordings").join("escargot.bvh").exists());
     click(&mut window, "The recording escargot");
+    click(&mut window, "ELAN (.eaf)");
     click(&mut window, "Write");
     idle(&mut window);
     assert!(shows(&window, "under “Agreed to”"), "it says how to state a consent");
