@@ -339,6 +339,23 @@ impl Corpus {
         Ok(stretch.ok().map(|stretch| stretch.recording.id))
     }
 
+    /// Returns a sentence that names those who have not agreed that everybody sees what a recipe makes, before it is
+    /// stored; `None` if all have.
+    ///
+    /// # Errors
+    /// Fails if the database fails. A recipe that cannot be evaluated shows nobody.
+    pub fn recipe_consent_sentence(&mut self, recipe: &str) -> CorpusResult<Option<String>> {
+        let (kinds, refused) = match self.withheld_recipe(recipe, OutputAudience::Public) {
+            Ok(None) => return Ok(None),
+            Ok(refused) => (&[ConsentKind::Derived][..], refused),
+            // A corpus that cannot be written cannot judge a sign as if it were stored, so that all who might object are named.
+            Err(_) => (&ConsentKind::ALL_CONSENT_KINDS[..], None),
+        };
+        let sources = self.recipe_sources(recipe)?;
+        let gate = OutputGate::open_output_gate(self.store.read_connection(), OutputAudience::Me)?;
+        Ok(gate.unstored_sign_sentence(refused, &sources, kinds))
+    }
+
     fn draw_side_by_side(
         &mut self,
         addresses: &[CorpusAddress],

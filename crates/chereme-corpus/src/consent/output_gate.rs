@@ -9,7 +9,6 @@ use serde::Serialize;
 
 use super::consent_gate::{PublishPermissions, TERMS_NOT_STATED, WithheldReason, withheld_remedy};
 use super::{ConsentAudience, ConsentKind};
-use crate::Corpus;
 use crate::error::{CorpusError, CorpusResult};
 
 /// The number of people whom a sentence names.
@@ -143,29 +142,21 @@ impl OutputGate {
         not_agreed_sentence(shown.filter_map(|recording| self.not_agreed(*recording, &kinds)))
     }
 
+    /// Returns the same sentence for a sign that is not stored: it names the person because of whom it is refused, and
+    /// those who did not agree to these kinds for one of its sources.
+    pub(crate) fn unstored_sign_sentence(
+        &self,
+        refused: Option<WithheldOutput>,
+        sources: &BTreeSet<i64>,
+        kinds: &[ConsentKind],
+    ) -> Option<String> {
+        let others = sources.iter().filter_map(|source| self.not_agreed(*source, kinds));
+        not_agreed_sentence(refused.into_iter().chain(others))
+    }
+
     /// Returns the terms of a recording, as a reader finds them in a file.
     pub(crate) fn terms_text(&self, recording: i64) -> String {
         self.permissions.recording_terms_text(recording)
-    }
-}
-
-impl Corpus {
-    /// Returns a sentence that names those who have not agreed that everybody sees what a recipe makes, before it is
-    /// stored; `None` if all have.
-    ///
-    /// # Errors
-    /// Fails if the database fails. A recipe that cannot be evaluated shows nobody.
-    pub fn recipe_consent_sentence(&mut self, recipe: &str) -> CorpusResult<Option<String>> {
-        let (kinds, refused) = match self.withheld_recipe(recipe, OutputAudience::Public) {
-            Ok(None) => return Ok(None),
-            Ok(refused) => (&[ConsentKind::Derived][..], refused),
-            // A corpus that cannot be written cannot judge a sign as if it were stored, so that all who might object are named.
-            Err(_) => (&ConsentKind::ALL_CONSENT_KINDS[..], None),
-        };
-        let sources = self.recipe_sources(recipe)?;
-        let gate = OutputGate::open_output_gate(self.store.read_connection(), OutputAudience::Me)?;
-        let others = sources.iter().filter_map(|source| gate.not_agreed(*source, kinds));
-        Ok(not_agreed_sentence(refused.into_iter().chain(others)))
     }
 }
 
