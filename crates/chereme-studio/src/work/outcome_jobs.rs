@@ -50,7 +50,7 @@ pub(crate) enum WorkOutcome {
     /// Values of a component were proposed from movement.
     Proposed(ProposalResult),
     /// All details of something.
-    Looked(ObjectDetails),
+    Looked(Box<ObjectDetails>),
     /// Tokens were found.
     Found(SearchAnswer),
     /// The values of a field were counted.

@@ -127,6 +127,6 @@ pub(crate) fn look_up_details_job(thing: InspectedThing) -> CorpusJob {
             InspectedThing::Recording(id) => ObjectDetails::Recording(corpus.recording_details(&RowName::Number(id))?),
             InspectedThing::Value(inventory, value) => ObjectDetails::Value(corpus.value_details(inventory, &value)?),
         };
-        Ok(WorkOutcome::Looked(details))
+        Ok(WorkOutcome::Looked(Box::new(details)))
     })
 }

@@ -99,7 +99,7 @@ impl PaneInterface for InspectorPane {
             return;
         };
         let lookup_result = match ended {
-            Ok(WorkOutcome::Looked(details)) => Ok(details.clone()),
+            Ok(WorkOutcome::Looked(details)) => Ok((**details).clone()),
             Ok(_) => return,
             // It was deleted, united with something else or undone, so that the selection is shown again.
             Err(CorpusError::Wrong { .. }) if self.turned.as_ref() == Some(&thing) => return self.turned = None,

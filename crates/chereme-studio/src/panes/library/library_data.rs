@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use chereme_corpus::{PersonContents, RecordOrigin, RecordingGlance, SignGlance, TrackKind};
+use chereme_corpus::{CorpusOverview, PersonContents, RecordOrigin, RecordingGlance, SignGlance, TrackKind};
 use chereme_motion::{RecordingInstant, TimeSpan};
 use chereme_sign::text::fold_text;
 
@@ -73,8 +73,7 @@ pub(crate) struct LibraryPersonRow {
 
 /// Returns the people with a name or an attribute that contains `filter`, ignoring case and accents.
 pub(crate) fn library_person_rows(
-    people: &[PersonContents],
-    preferred: Option<&str>,
+    overview: &CorpusOverview,
     filter: &str,
     language: InterfaceLanguage,
 ) -> Vec<LibraryPersonRow> {
@@ -87,7 +86,7 @@ pub(crate) fn library_person_rows(
         ];
         let roles = roles.into_iter().filter(|(_, n)| *n > 0);
         let roles = roles.map(|(text, n)| fill_text_braces(text.text_in_language(language), &[("n", &n)]));
-        let is_preferred = preferred == Some(person.name.as_str());
+        let is_preferred = overview.preferred_annotator.as_ref() == Some(&person.name);
         let counts_first = is_preferred.then(|| words::PREFERRED.text_in_language(language).to_owned());
         let attributes = person.attributes.iter();
         let said = attributes.map(|attribute| format!("{}={}", attribute.name, attribute.text));
@@ -101,7 +100,8 @@ pub(crate) fn library_person_rows(
         let mut texts = person.aliases.iter().chain([&row.name, &row.about]);
         texts.any(|text| fold_text(text).contains(&wanted))
     };
-    people
+    overview
+        .people
         .iter()
         .map(|person| (person, row(person)))
         .filter(fits)

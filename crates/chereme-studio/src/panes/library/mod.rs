@@ -86,12 +86,7 @@ impl LibraryRows {
         let kind = |kind| seen.say_text(library_data::kind_text(kind)).to_owned();
         self.recordings = library_data::library_recording_rows(&overview.recordings, filter, origin, kind);
         self.signs = library_data::library_sign_rows(&overview.signs, &overview.recordings, filter, seen.language);
-        self.people = library_data::library_person_rows(
-            &overview.people,
-            overview.preferred_annotator.as_deref(),
-            filter,
-            seen.language,
-        );
+        self.people = library_data::library_person_rows(overview, filter, seen.language);
         self.first = library_wall::first_signs(&overview.signs);
         self.of = Some(now);
     }

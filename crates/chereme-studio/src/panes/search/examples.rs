@@ -58,7 +58,9 @@ impl KnownExamples {
             return;
         };
         let mut token_facts = TokenSign::default();
-        if let Ok(WorkOutcome::Looked(ObjectDetails::Token(it))) = ended {
+        if let Ok(WorkOutcome::Looked(details)) = ended
+            && let ObjectDetails::Token(it) = &**details
+        {
             let span = it.row.start_us.zip(it.row.end_us).map(|(start, end)| {
                 TimeSpan::span_between(RecordingInstant::from_micros(start), RecordingInstant::from_micros(end))
             });
