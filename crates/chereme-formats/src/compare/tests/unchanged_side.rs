@@ -1,6 +1,7 @@
 //! A merge with an unchanged side gives the other side, for tiers of every stereotype.
 
 use super::{Seeded, own, shown};
+use crate::compare::TIME_TOLERANCE_MICROS;
 use crate::compare::diff_transcripts;
 use crate::compare::loose::{LooseAnnotation, TranscriptPieces};
 use crate::compare::merge_transcripts;
@@ -168,7 +169,11 @@ fn edited(it: &AnnotationTranscript, numbers: &mut Seeded, deeds: u64) -> Annota
             }
             1 if !chained => {
                 let most = u64::try_from(end - start).expect("a length").max(2);
-                set_times(&mut pieces, &id, start + numbers.below(most - 1) as i64, end);
+                let by = numbers.below(most - 1) as i64;
+                // Times that are rounded alike are no change.
+                if by > TIME_TOLERANCE_MICROS {
+                    set_times(&mut pieces, &id, start + by, end);
+                }
             }
             2 | 3 => remove(&mut pieces, &id),
             4 if stereotype == Some(TierStereotype::SymbolicSubdivision) => {
@@ -285,6 +290,16 @@ fn a_chain_gets_the_order_of_the_side_that_changed_it() {
     ] {
         let other = format!("Gloss: a1 0-900 A\nw <Gloss: {chain}");
         super::merges(base, base, &other, &other, 0);
+    }
+}
+
+#[test]
+fn what_both_moved_and_added_alike_is_no_conflict_although_it_overlaps() {
+    let base = "phase: a1 3000-3200 A, a2 3400-3600 B";
+    let other = "phase: a1 3000-3200 A, a3 3400-3467 N, a2 3400-3500 B, a4 3500-3600 B";
+    super::merges(base, other, other, other, 0);
+    for (seed, deeds) in [(9_755_687_742_123_914_689, 2), (6_438_491_371_946_492_730, 4)] {
+        unchanged_side_gives_the_other(seed, deeds);
     }
 }
 
