@@ -204,7 +204,7 @@ impl AnnotationsByTime {
     ) -> CorpusResult<Self> {
         let all = stored_tiers::load_tier_rows(connection, recording.id)?;
         let is_coding = |tier: &&TierRow| !tier.is_of_phases();
-        let of_glosses = || all.iter().filter(|tier| tier.holds_glosses());
+        let of_glosses = || stored_tiers::token_tiers(&all);
         let of_components = || {
             let coded = |tier: &&TierRow| tier.role.role_component().is_some();
             all.iter().filter(coded).filter(is_coding)

@@ -111,6 +111,17 @@ impl TierRow {
     }
 }
 
+/// Returns those tiers of a recording whose annotations are tokens: those of glosses, but not one that says the signs of
+/// the glosses above it once more, one to one.
+pub(crate) fn token_tiers(tiers: &[TierRow]) -> impl Iterator<Item = &TierRow> {
+    let parent_of = |tier: &TierRow| tiers.iter().find(|above| Some(above.id) == tier.parent_id);
+    tiers.iter().filter(move |tier| {
+        let repeats = tier.stereotype == Some(TierStereotype::SymbolicAssociation)
+            && parent_of(tier).is_some_and(|above| above.role == TierRole::Gloss);
+        tier.holds_glosses() && !repeats
+    })
+}
+
 /// An annotation.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub(crate) struct AnnotationRow {

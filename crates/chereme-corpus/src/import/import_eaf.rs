@@ -10,12 +10,11 @@ mod update;
 use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_formats::eaf::eaf_convert::{
-    AnnotationAddress, AnnotationTiming, AnnotationTranscript, TranscriptAnnotation,
+    AnnotationAddress, AnnotationTiming, AnnotationTranscript, TranscriptAnnotation, TranscriptTier,
 };
 use chereme_formats::roles::{self, TierGuess, TierMapping};
 use chereme_motion::RecordingInstant;
-use chereme_sign::TierRole;
-use chereme_sign::{ErrorRemedy, RemedyChoice};
+use chereme_sign::{ErrorRemedy, RemedyChoice, SignComponent, TierRole};
 use serde_json::json;
 
 use super::import_again::set_hand;
@@ -334,18 +333,58 @@ fn guess_tier_roles(
         }
     }
     let mut guesses = roles::guess_tiers(transcript, &mapping);
-    for guess in guesses.iter_mut().filter(|guess| guess.role.is_none()) {
+    for (tier, guess) in transcript.tiers.iter().zip(&mut guesses) {
+        // A person was asked about a doubted role when the first tier of the name came.
+        if guess.role.is_some() && !guess.is_doubted_guess() {
+            continue;
+        }
         let named_roles = stored_tiers::roles_named(job.connection, &guess.tier)?;
         // Tiers of one name with different roles say nothing about another tier of that name.
-        let [one] = named_roles.as_slice() else {
-            continue;
-        };
-        guess.role = Some(one.role.clone());
-        guess.hand = one.hand;
-        guess.confidence = 0.5;
-        guess.why = "tiers of this name in the corpus are".to_owned();
+        if let [one] = named_roles.as_slice() {
+            guess.role = Some(one.role.clone());
+            guess.hand = one.hand;
+            guess.confidence = 0.6;
+            guess.why = "tiers of this name in the corpus are".to_owned();
+        } else if guess.role.is_none() && guess.hand.is_some() && holds_handshapes(job, tier) {
+            (guess.role, guess.confidence) = ("configuration".parse().ok(), 0.5);
+            guess.why = format!("{}, and its values are handshapes", guess.why);
+        }
     }
+    report.findings.extend(doubted_roles_finding(transcript, &guesses));
     Ok(guesses)
+}
+
+/// Returns whether all values of a tier are handshapes of one inventory.
+fn holds_handshapes(job: &ImportJob<'_>, tier: &TranscriptTier) -> bool {
+    let texts = tier.annotations.iter().map(|annotation| annotation.value.trim());
+    let values: Vec<&str> = texts
+        .filter(|text| ValueState::of_file_text(text) == ValueState::Value)
+        .collect();
+    let inventories = job.inventories.iter().map(|stored| &stored.inventory);
+    let mut of_handshapes =
+        inventories.filter(|it| it.component == SignComponent::Configuration && it.feature.is_none());
+    !values.is_empty() && of_handshapes.any(|it| it.distinguishes_texts(values.iter().copied()))
+}
+
+/// Returns a finding that names the tiers whose roles are guesses, and the mapping that states them.
+fn doubted_roles_finding(transcript: &AnnotationTranscript, guesses: &[TierGuess]) -> Option<ReportFinding> {
+    let is_asked = |(tier, guess): &(&TranscriptTier, &TierGuess)| {
+        let is_unknown = guess.role.is_none() && guess.hand.is_some();
+        !tier.annotations.is_empty() && (is_unknown || guess.is_doubted_guess())
+    };
+    let asked = transcript.tiers.iter().zip(guesses).filter(is_asked);
+    let topics = asked.map(|(_, guess)| (&guess.tier, guess.guessed_tier_topic().unwrap_or_default().to_string()));
+    let roles: BTreeMap<&String, String> = topics.collect();
+    let names: Vec<String> = roles.iter().map(|(name, role)| format!("{name:?} ({role})")).collect();
+    let message = format!(
+        "the names of these tiers do not state their roles, so that these are guesses: {}",
+        names.join(", ")
+    );
+    let remedy = ErrorRemedy::choice_remedy(
+        RemedyChoice::TierRoles,
+        format!("say in a mapping (--map) what each is: {}", json!({ "tiers": roles })),
+    );
+    (!roles.is_empty()).then(|| ReportFinding::finding_warning(message, remedy))
 }
 
 /// Warns if the annotations extend long past the end of the movement.

@@ -104,6 +104,97 @@ fn recordings_of(corpus: &Corpus) -> Vec<i64> {
     all.iter().map(|row| row.id).collect()
 }
 
+/// Returns tiers as EAF: the first with times, the others one to one below it.
+fn eaf_of_children(first: (&str, &[&str]), children: &[(&str, &[&str])]) -> String {
+    let times: Vec<_> = (0_i64..)
+        .map(|at| (at * 1000, at * 1000 + 500))
+        .take(first.1.len())
+        .collect();
+    let (slots, mut body) = times.iter().enumerate().fold((String::new(), String::new()), |(slots, body), (at, time)| {
+        let slot = |name: &str, time: i64| format!("<TIME_SLOT TIME_SLOT_ID=\"{name}{at}\" TIME_VALUE=\"{time}\"/>");
+        let value = first.1[at];
+        let annotation = format!(
+            "<ANNOTATION><ALIGNABLE_ANNOTATION ANNOTATION_ID=\"p{at}\" TIME_SLOT_REF1=\"s{at}\" TIME_SLOT_REF2=\"e{at}\">\
+             <ANNOTATION_VALUE>{value}</ANNOTATION_VALUE></ALIGNABLE_ANNOTATION></ANNOTATION>"
+        );
+        (slots + &slot("s", time.0) + &slot("e", time.1), body + &annotation)
+    });
+    body = format!("<TIER TIER_ID=\"{}\" LINGUISTIC_TYPE_REF=\"t\">{body}</TIER>", first.0);
+    for (place, (tier, values)) in children.iter().enumerate() {
+        body += &format!(
+            "<TIER TIER_ID=\"{tier}\" PARENT_REF=\"{}\" LINGUISTIC_TYPE_REF=\"one\">",
+            first.0
+        );
+        for (at, value) in values.iter().enumerate() {
+            body += &format!(
+                "<ANNOTATION><REF_ANNOTATION ANNOTATION_ID=\"c{place}{at}\" ANNOTATION_REF=\"p{at}\">\
+                 <ANNOTATION_VALUE>{value}</ANNOTATION_VALUE></REF_ANNOTATION></ANNOTATION>"
+            );
+        }
+        body += "</TIER>";
+    }
+    format!(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?><ANNOTATION_DOCUMENT AUTHOR=\"\" \
+         DATE=\"2024-01-01T00:00:00Z\" FORMAT=\"3.0\" VERSION=\"3.0\"><HEADER MEDIA_FILE=\"\" \
+         TIME_UNITS=\"milliseconds\"/><TIME_ORDER>{slots}</TIME_ORDER>{body}\
+         <LINGUISTIC_TYPE LINGUISTIC_TYPE_ID=\"t\" TIME_ALIGNABLE=\"true\"/>\
+         <LINGUISTIC_TYPE CONSTRAINTS=\"Symbolic_Association\" LINGUISTIC_TYPE_ID=\"one\" TIME_ALIGNABLE=\"false\"/>\
+         <CONSTRAINT STEREOTYPE=\"Symbolic_Association\"/></ANNOTATION_DOCUMENT>"
+    )
+}
+
+#[test]
+fn roles_that_no_name_states_are_asked_for_and_second_glosses_are_no_tokens() {
+    let desk = Desk::new();
+    let take = desk.file(
+        "one.eaf",
+        &eaf_of_children(
+            ("Gloss-dom", &["CAT", "DOG"]),
+            &[
+                ("MG-dom", &["B", "S"]),
+                ("MG-weak", &["see below", "S"]),
+                ("Sign-dom", &["CAT1", "DOG1"]),
+            ],
+        ),
+    );
+    let mut corpus = desk.corpus("a.chereme");
+    let report = import(&mut corpus, &take, "{}");
+    let wanted = [
+        "Gloss-dom: dominant gloss",
+        "MG-dom: dominant configuration",
+        "MG-weak: weak free",
+        "Sign-dom: dominant gloss",
+    ];
+    let mut roles_now = roles(&corpus);
+    roles_now.sort();
+    assert_eq!(roles_now, wanted);
+    let glosses = corpus
+        .search_tokens("gloss=*", &crate::SearchOptions::default())
+        .expect("found");
+    assert_eq!(glosses.total, 2, "Sign-dom says the same signs again");
+    let found = corpus.search_tokens("dominant.configuration=B", &crate::SearchOptions::default());
+    assert_eq!(found.expect("found").total, 1);
+    let asked = report
+        .findings
+        .iter()
+        .find(|it| it.message.contains("do not state their roles"));
+    let asked = asked.expect("a finding");
+    assert!(
+        asked
+            .message
+            .ends_with("guesses: \"MG-dom\" (dominant.configuration), \"MG-weak\" (free)"),
+        "{asked:?}"
+    );
+    let remedy = asked.remedy.as_ref().expect("a remedy").remedy_text();
+    let stated = r#"{"tiers":{"MG-dom":"dominant.configuration","MG-weak":"free"}}"#;
+    assert!(remedy.ends_with(stated), "{remedy}");
+    // The mapping that is proposed states the roles, so that nothing is asked any more.
+    let mut corpus = desk.corpus("b.chereme");
+    let report = import(&mut corpus, &take, stated);
+    assert_eq!(report.findings, []);
+    assert_whole(&mut corpus);
+}
+
 #[test]
 fn roles_given_to_oddly_named_tiers_are_remembered() {
     let desk = Desk::new();

@@ -51,7 +51,19 @@ pub struct TierGuess {
     pub why: String,
 }
 
+/// The confidence of a role that neither name nor type states.
+const HAND_ONLY_CONFIDENCE: f64 = 0.5;
+
+/// The highest confidence of a role that a person should confirm.
+const MAX_DOUBTED_CONFIDENCE: f64 = 0.5;
+
 impl TierGuess {
+    /// Returns whether no word of the file states the role, so that a person should confirm it.
+    #[must_use]
+    pub fn is_doubted_guess(&self) -> bool {
+        self.role.is_some() && self.confidence <= MAX_DOUBTED_CONFIDENCE
+    }
+
     /// Returns role and hand together, as mappings spell them; nothing if the role is unknown.
     #[must_use]
     pub fn guessed_tier_topic(&self) -> Option<TierTopic> {
@@ -117,8 +129,9 @@ fn tier_attribute_name<'t>(
 /// names only a hand is a gloss tier; one without a hand takes the hand of the tier above. `MD` is the
 /// right hand (*main droite*) unless other tiers name the weak one `MND`; the same holds for `D` if there
 /// is an `ND`. A gloss tier with a one-to-one relation to another gloss tier above it holds a second
-/// reading of the same signs, usually in another language: it is a translation, so that each sign stays
-/// one token.
+/// reading of the same signs: glosses of that hand if its name states the same hand, such as types beside
+/// lexemes, else a translation. One whose name has only a hand may hold anything about the signs, and
+/// stays without a role.
 #[must_use]
 pub fn guess_roles(tiers: &[TierRoleEvidence<'_>], mapping: &TierMapping) -> Vec<TierGuess> {
     let context = TierAbbreviations::new(tiers.iter().map(|tier| tier.name));
@@ -138,14 +151,16 @@ pub fn guess_roles(tiers: &[TierRoleEvidence<'_>], mapping: &TierMapping) -> Vec
             && guesses[at].role == Some(TierRole::Gloss)
             && guesses[at].confidence < 1.0
         {
-            let above = &guesses[above];
-            let why = format!(
-                "{}, but each is one of the glosses above, {:?}",
-                guesses[at].why, above.tier
-            );
+            let (hand_above, above) = (guesses[above].hand, guesses[above].tier.clone());
             let guess = &mut guesses[at];
-            (guess.role, guess.hand, guess.why) = (Some(TierRole::Translation), None, why);
-            second_readings.insert(at);
+            guess.why = format!("{}, but each is one of the glosses above, {above:?}", guess.why);
+            if guess.confidence <= HAND_ONLY_CONFIDENCE {
+                (guess.role, guess.confidence) = (None, 0.0);
+            } else if guess.hand.is_none() || guess.hand != hand_above {
+                (guess.role, guess.hand) = (Some(TierRole::Translation), None);
+                guess.confidence = MAX_DOUBTED_CONFIDENCE;
+                second_readings.insert(at);
+            }
         }
     }
     for (at, tier) in tiers.iter().enumerate() {
@@ -289,7 +304,7 @@ fn guess_tier_role(tier: &TierRoleEvidence<'_>, mapping: &TierMapping, context: 
     } else if let Some((_, word)) = name_match.hand.as_ref().filter(|_| name_match.unknown.is_empty()) {
         (
             Some(TierRole::Gloss),
-            0.5,
+            HAND_ONLY_CONFIDENCE,
             format!("its name has only a hand, {word:?}"),
         )
     } else {
@@ -330,7 +345,15 @@ fn role_of(found: &RoleWordMatch) -> Option<(TierRole, String)> {
         // A comment on glosses is a comment, and their parts of speech are not glosses.
         _ => 0,
     };
-    let mut roles: Vec<&(TierRole, String)> = found.roles.iter().collect();
+    // Beside a part of the body, "pos" abbreviates its position, not a part of speech.
+    let of_body = |(role, _): &(TierRole, String)| match role {
+        TierRole::Component { component, feature } => {
+            *component == SignComponent::NonManual && feature.as_deref() != Some("mouthing")
+        }
+        _ => false,
+    };
+    let is_position = |word: &str| word == "pos" && found.roles.iter().any(of_body);
+    let mut roles: Vec<&(TierRole, String)> = found.roles.iter().filter(|(_, word)| !is_position(word)).collect();
     roles.sort_by_key(|(role, word)| (rank(role), std::cmp::Reverse(word.chars().count())));
     roles.first().map(|role| (*role).clone())
 }
@@ -338,4 +361,56 @@ fn role_of(found: &RoleWordMatch) -> Option<(TierRole, String)> {
 /// Returns whether texts are equal after [`fold`].
 pub(crate) fn is_same_folded(a: &str, b: &str) -> bool {
     a == b || fold_text(a) == fold_text(b)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Returns the tiers' roles; those with a number are one to one below the tier of that place.
+    fn roles_of(tiers: &[(&str, Option<usize>)]) -> Vec<String> {
+        let mut evidence = Vec::new();
+        for &(name, parent) in tiers {
+            evidence.push(TierRoleEvidence {
+                name,
+                parent,
+                one_to_one: parent.is_some(),
+                ..TierRoleEvidence::default()
+            });
+        }
+        let guesses = guess_roles(&evidence, &TierMapping::default());
+        let shown = |guess: &TierGuess| {
+            let topic = guess.guessed_tier_topic();
+            topic.map_or_else(|| "unknown".to_owned(), |topic| topic.to_string())
+        };
+        guesses.iter().map(shown).collect()
+    }
+
+    #[test]
+    fn tiers_of_american_and_german_corpora_have_the_roles_of_their_values() {
+        let head = ["head pos", "head pos: turn", "head pos: tilt", "head pos: jut"];
+        for name in head {
+            assert_eq!(roles_of(&[(name, None)]), ["nonmanual.head"], "{name}");
+        }
+        for name in ["POS", "Gloss RH part of speech", "POS of gloss", "mouthing POS"] {
+            assert!(roles_of(&[(name, None)])[0].ends_with("free"), "{name}");
+        }
+        let german = [
+            ("Lexem_Gebärde_r_A", None),
+            ("Gebärde_r_A", Some(0)),
+            ("Lexeme_Sign_r_A", Some(0)),
+            ("Sign_r_A", Some(2)),
+            ("Gloss", None),
+            ("Gloss English", Some(4)),
+        ];
+        let gloss = "right.gloss";
+        assert_eq!(roles_of(&german), [gloss, gloss, gloss, gloss, "gloss", "translation"]);
+        let by_hand = [
+            ("Gloss", None),
+            ("MG-dom", Some(0)),
+            ("MG-nondom", Some(0)),
+            ("left", None),
+        ];
+        assert_eq!(roles_of(&by_hand), ["gloss", "unknown", "unknown", "left.gloss"]);
+    }
 }
