@@ -8,7 +8,7 @@ use rusqlite::{Connection, OpenFlags, params};
 
 use super::consents::ConsentAudience;
 use super::stored_motion::to_hex_text;
-use super::{open, seals, stored_delete, stored_search};
+use super::{open, seals, stored_delete, stored_search, token_marks};
 use crate::error::{CorpusError, CorpusResult};
 
 /// The tables that a reader of the data needs, each after those it refers to.
@@ -163,13 +163,13 @@ pub(crate) fn visit_table_cells(
 }
 
 /// Calls `take` with the names of a table's columns, then with each row as text. A null is an empty text, bytes are in
-/// hexadecimal, and the bytes of stored files are left out.
+/// hexadecimal, and the bytes of stored files are left out. Tokens also have their signers and marks.
 pub(crate) fn dump_table_rows(
     connection: &Connection,
     table: &str,
     mut take: impl FnMut(Vec<String>) -> CorpusResult<()>,
 ) -> CorpusResult<()> {
-    let mut statement = connection.prepare(&format!("SELECT * FROM {table} ORDER BY 1"))?;
+    let mut statement = connection.prepare(&token_marks::dumped_rows_sql(table))?;
     let names: Vec<String> = statement.column_names().map(str::to_owned).collect();
     let kept: Vec<usize> = (0..names.len()).filter(|&at| names[at] != "data").collect();
     take(kept.iter().map(|&at| names[at].clone()).collect())?;

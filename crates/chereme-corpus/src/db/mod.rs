@@ -39,6 +39,7 @@ pub(crate) mod stored_tiers;
 pub(crate) mod stored_tracks;
 #[cfg(test)]
 mod testing;
+pub(crate) mod token_marks;
 pub(crate) mod unfinished;
 pub(crate) mod upgrade;
 

@@ -24,7 +24,7 @@ pub(crate) const SIGNER_ROWS_SQL: &str = "(SELECT * FROM signer s
 
 /// The tokens `t` with their signer: the participant `p` of their tier if the corpus knows that person, otherwise the signer
 /// of the recording `r`.
-pub(crate) const SIGNED_TOKENS_SQL: &str = "token t JOIN recording r ON r.id = t.recording_id
+pub(crate) const SIGNED_TOKENS_SQL: &str = "token t LEFT JOIN recording r ON r.id = t.recording_id
     LEFT JOIN annotation a ON a.id = t.annotation_id
     LEFT JOIN tier i ON i.id = a.tier_id LEFT JOIN signer p ON p.name = i.participant";
 

@@ -7,6 +7,7 @@ use rusqlite::types::ValueRef;
 use rusqlite::{Connection, ToSql};
 use serde_json::{Map, Value};
 
+use super::token_marks::{DISPUTED_FIELDS_SQL, PROPOSED_FIELDS_SQL};
 use crate::db::cached_sql::CachedSql;
 use crate::error::CorpusResult;
 
@@ -188,6 +189,8 @@ pub(crate) const TOKENS_LIST: ListTable = ListTable {
         text_list_column("origin", "t.origin"),
         flag_list_column("citation", "t.citation"),
         named_row_column("signer", "g.name", "g.id"),
+        text_list_column("disputed", DISPUTED_FIELDS_SQL),
+        text_list_column("proposed", PROPOSED_FIELDS_SQL),
         new_list_column("components", "NULL", ListColumnContent::Components, None),
         new_list_column(
             "notation",

@@ -3,7 +3,7 @@
 //! The columns of components have the names of fields in queries. Several values of one field are written in one cell
 //! as in lexicons (`chin > chest`, `S + W`), so that importing the table gives the same codings. The signer of a token of a
 //! dialogue is the participant of its tier; what is said of signers stands in columns such as `signer.region`, as far as
-//! the audience may know it.
+//! the audience may know it. The columns `disputed` and `proposed` name the fields whose values do not count.
 
 use chereme_sign::SignPhase;
 use chereme_sign::tier::AnnotatedHands;
@@ -22,6 +22,7 @@ use crate::db::stored_attributes;
 use crate::db::stored_columns::ValueState;
 use crate::db::stored_recordings;
 use crate::db::stored_tiers;
+use crate::db::token_marks;
 use crate::error::{CorpusError, CorpusResult};
 use crate::notation;
 use crate::progress::ProgressReceiver;
@@ -51,7 +52,7 @@ impl TableForm {
     }
 }
 
-const FIXED_TOKEN_COLUMNS: [&str; 11] = [
+const FIXED_TOKEN_COLUMNS: [&str; 13] = [
     "token",
     "gloss",
     "lexicon",
@@ -63,6 +64,8 @@ const FIXED_TOKEN_COLUMNS: [&str; 11] = [
     "hand",
     "citation",
     "homonym",
+    "disputed",
+    "proposed",
 ];
 
 /// Writes one row for each token, with all its components and its own attributes.
@@ -137,6 +140,7 @@ pub(super) fn write_token_csv(
         let notations = notation::of_tokens(connection, ids)?;
         let own_attributes = stored_attributes::of_tokens(connection, ids)?;
         let signers = people::signers_of_tokens(connection, ids)?;
+        let mut marks = token_marks::load_token_marks(connection, ids)?;
         for id in ids {
             let token = rows
                 .get(id)
@@ -144,6 +148,7 @@ pub(super) fn write_token_csv(
             let signer = signers.get(id);
             let said_of_signer = signer.and_then(|(signer, _)| said_of_signers.get(signer));
             let mut row = fixed(&token, signer.map(|(_, name)| name.as_str()));
+            row.extend(marks.remove(id).unwrap_or_default());
             let mut texts = sign_translations_by_language(connection, token.sign_id)?;
             for (language, most) in &languages {
                 let mut language_texts = texts.remove(language).unwrap_or_default();

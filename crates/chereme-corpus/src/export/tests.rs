@@ -602,3 +602,87 @@ fn a_program_without_parquet_says_what_to_do() {
         assert!(!place.path(name).exists());
     }
 }
+
+#[test]
+fn tables_of_tokens_say_who_signs_and_which_fields_do_not_count() {
+    let mut place = Place::new();
+    let slots: String = ["0", "1000"]
+        .iter()
+        .enumerate()
+        .map(|(at, time)| format!("<TIME_SLOT TIME_SLOT_ID=\"t{at}\" TIME_VALUE=\"{time}\"/>"))
+        .collect();
+    let tiers = [
+        ("Gloss A", "anna", "CHIEN"),
+        ("Handshape right", "anna", "flat"),
+        ("Handshape right 2", "ben", "5"),
+        ("Location right", "anna", "chin"),
+    ];
+    let tiers = tiers.iter().enumerate().map(|(at, (name, annotator, value))| {
+        format!(
+            "<TIER TIER_ID=\"{name}\" ANNOTATOR=\"{annotator}\" PARTICIPANT=\"Cem\" LINGUISTIC_TYPE_REF=\"t\">\
+             <ANNOTATION><ALIGNABLE_ANNOTATION ANNOTATION_ID=\"a{at}\" TIME_SLOT_REF1=\"t0\" TIME_SLOT_REF2=\"t1\">\
+             <ANNOTATION_VALUE>{value}</ANNOTATION_VALUE></ALIGNABLE_ANNOTATION></ANNOTATION></TIER>"
+        )
+    });
+    let text = format!(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?><ANNOTATION_DOCUMENT AUTHOR=\"\" DATE=\"2024-01-01T00:00:00Z\" \
+         FORMAT=\"3.0\" VERSION=\"3.0\"><HEADER MEDIA_FILE=\"\" TIME_UNITS=\"milliseconds\"/>\
+         <TIME_ORDER>{slots}</TIME_ORDER>{}<LINGUISTIC_TYPE LINGUISTIC_TYPE_ID=\"t\" TIME_ALIGNABLE=\"true\"/>\
+         </ANNOTATION_DOCUMENT>",
+        tiers.collect::<String>()
+    );
+    let file = place.file("dialogue.eaf", text.as_bytes());
+    let mut corpus = place.corpus(&[file]);
+    let proposed = corpus.store.named_operation("test", |connection| {
+        connection.execute(
+            "UPDATE annotation SET origin = 'detector', confidence = 0.9 WHERE value = 'chin'",
+            [],
+        )?;
+        crate::tokens::update_recording_tokens(connection, 1, None, &[])?;
+        Ok(((), String::new()))
+    });
+    proposed.expect("changed");
+    let table = place.path("tokens.csv");
+    export(&corpus, &ExportWhat::All, &table).expect("exported");
+    let folder = place.path("folder");
+    export(&corpus, &ExportWhat::All, &folder).expect("exported");
+    for path in [table.clone(), folder.join("tables").join("token.csv")] {
+        let mut reader = ::csv::Reader::from_path(&path).expect("a table");
+        let titles = reader.headers().expect("titles").clone();
+        let row = reader.records().next().expect("a token").expect("a row");
+        let cell = |title: &str| {
+            let at = titles.iter().position(|one| one == title);
+            row[at.unwrap_or_else(|| panic!("{title} in {titles:?}"))].to_owned()
+        };
+        let marks = ["signer", "disputed", "proposed"].map(cell);
+        assert_eq!(
+            marks,
+            ["Cem", "right.configuration", "right.placement"],
+            "{}",
+            path.display()
+        );
+    }
+    let listed = corpus
+        .list_rows(ListKind::Tokens, &ListFilter::default())
+        .expect("listed");
+    let listed = serde_json::to_string(&listed).expect("JSON");
+    for part in [
+        "\"signer\":\"Cem\"",
+        "\"disputed\":\"right.configuration\"",
+        "\"proposed\":\"right.placement\"",
+    ] {
+        assert!(listed.contains(part), "{part} in {listed}");
+    }
+    // Read back as a lexicon, the marks are no properties of signs.
+    let again = place.corpus(&[table]);
+    let attributes: i64 = again
+        .store
+        .read_connection()
+        .query_row(
+            "SELECT count(*) FROM attribute WHERE name IN ('disputed', 'proposed')",
+            [],
+            |row| row.get(0),
+        )
+        .expect("counted");
+    assert_eq!(attributes, 0);
+}

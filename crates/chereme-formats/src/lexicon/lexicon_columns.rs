@@ -123,7 +123,7 @@ fn parse_column_targets(text: &str) -> Result<BTreeMap<String, MappingTarget>, S
 }
 
 /// Titles of properties of tokens rather than signs.
-const TOKEN_PROPERTY_TITLES: [&str; 8] = [
+const TOKEN_PROPERTY_TITLES: [&str; 10] = [
     "token",
     "recording",
     "start_s",
@@ -132,6 +132,8 @@ const TOKEN_PROPERTY_TITLES: [&str; 8] = [
     "signer",
     "hand",
     "citation",
+    "disputed",
+    "proposed",
 ];
 
 /// Titles of columns that hold HamNoSys, as folded words.
