@@ -73,6 +73,16 @@ fn a_newer_version_in_another_folder_updates_the_lexicon_that_is_named() {
         said.iter().any(|text| text.contains("there is a lexicon \"asl\"")),
         "{said:?}"
     );
+    let remedies = report.findings.iter().filter_map(|finding| finding.remedy.as_ref());
+    let remedies: Vec<&str> = remedies.map(|remedy| remedy.remedy_text()).collect();
+    assert!(
+        remedies.iter().any(|text| text.ends_with("--lexicon \"asl\"")),
+        "{remedies:?}"
+    );
+    assert_eq!(report.understood.lexicon.as_deref(), Some("asl (2)"));
+    // The second time, the file has a lexicon of its own already.
+    let said = import_file(&mut corpus, &new).findings;
+    assert!(!said.iter().any(|finding| finding.severity == "warning"), "{said:?}");
     assert_eq!(found(&mut corpus, "gloss=*").len(), 4);
     corpus.undo_operation().expect("undone");
     let options = ImportOptions {
