@@ -16,6 +16,7 @@ use crate::words::effect::OperationEffect;
 use crate::{Corpus, RecordOrigin};
 pub use consent_gate::WithheldReason;
 pub(crate) use consent_gate::{PublishPermissions, TERMS_NOT_STATED, withheld_remedy};
+pub(crate) use kept_movement::find_movement_pieces;
 pub use output_gate::{OutputAudience, WithheldOutput};
 pub(crate) use output_gate::{OutputGate, nothing_passes_error};
 

@@ -59,6 +59,8 @@ pub(super) struct StatedAudience {
     pub(super) is_incomplete: bool,
     /// Whether another copy of the corpus allows less, and nobody has decided.
     is_doubted: bool,
+    /// The recording whose movement it shows, if that allows less.
+    narrowed_by: Option<i64>,
 }
 
 /// A contributor because of whom something is withheld, and the reason.
@@ -184,6 +186,7 @@ impl PublishPermissions {
             permissions.recordings.insert(row.id, row);
         }
         permissions.join_equal_movement(connection)?;
+        permissions.join_pieces_of_takes(connection)?;
         permissions.find_kept_movement(connection)?;
         Ok(permissions)
     }
@@ -205,6 +208,34 @@ impl PublishPermissions {
                         // Copies show the same person, so the narrowest statement holds for all of them.
                         stated.least = stated.least.into_iter().chain(least).min();
                         stated.is_doubted |= is_doubted;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Gives a recording that shows a stretch of another one the narrower consent of the two, where they differ.
+    fn join_pieces_of_takes(&mut self, connection: &Connection) -> CorpusResult<()> {
+        let kinds = [ConsentKind::Movement, ConsentKind::Derived];
+        // Only where this audience may see one and not the other does it matter whose movement it is.
+        let [seen, withheld] = [true, false].map(|is_seen| {
+            let recordings = self.recordings.values().filter(|row| row.origin != RecordOrigin::Made);
+            let ids = recordings.map(|row| row.id);
+            ids.filter(|id| kinds.iter().any(|kind| self.may_be_seen(*id, *kind).is_ok() == is_seen))
+                .collect::<BTreeSet<i64>>()
+        });
+        for found in kept_movement::find_movement_pieces(connection, &seen, &withheld)? {
+            for kind in kinds {
+                let of_take = self.stated_audience(found.take, kind);
+                if let Some(stated) = self.stated.get_mut(&found.piece) {
+                    let stated = &mut stated[kind as usize];
+                    let before = *stated;
+                    stated.least = stated.least.into_iter().chain(of_take.least).min();
+                    stated.is_incomplete |= of_take.is_incomplete;
+                    stated.is_doubted |= of_take.is_doubted;
+                    if *stated != before {
+                        stated.narrowed_by = Some(found.take);
                     }
                 }
             }
@@ -297,7 +328,13 @@ impl PublishPermissions {
             }
             // A recording made from others shows a derived sign, and nothing that was recorded.
             let kind = if from_others { ConsentKind::Derived } else { kind };
-            self.may_be_seen(contributor, kind).map_err(withheld)?;
+            self.may_be_seen(contributor, kind).map_err(|reason| WithheldSource {
+                recording: self
+                    .stated_audience(contributor, kind)
+                    .narrowed_by
+                    .unwrap_or(contributor),
+                reason,
+            })?;
             match licence {
                 Some(licence) => {
                     terms.insert(licence.to_owned());
@@ -436,6 +473,7 @@ pub(super) fn state_audience(
         own,
         is_incomplete,
         is_doubted: false,
+        narrowed_by: None,
     }
 }
 

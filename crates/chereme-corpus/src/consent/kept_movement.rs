@@ -1,10 +1,11 @@
-//! Recordings that show the movement of another one unchanged: byte-equal copies, and results of recipes that leave it
-//! as it is.
+//! Recordings that show the movement of another one unchanged: byte-equal copies, pieces of a take, and results of recipes
+//! that leave it as it is.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 
-use chereme_motion::Clip;
-use chereme_motion::glam::DQuat;
+use chereme_motion::TimeSpan;
+use chereme_motion::glam::{DQuat, DVec3};
 use rusqlite::Connection;
 
 use crate::db::{consents, stored_recordings};
@@ -31,6 +32,163 @@ pub(super) fn equal_movement_groups(connection: &Connection) -> CorpusResult<Vec
     Ok(by_blocks.into_values().filter(|group| group.len() > 1).collect())
 }
 
+/// A recording that shows the movement of a stretch of another one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct MovementPiece {
+    pub(crate) piece: i64,
+    pub(crate) take: i64,
+    /// The part of the take that the whole piece corresponds to.
+    pub(crate) span: TimeSpan,
+}
+
+/// How many frames of a take are compared at once.
+const COMPARED_FRAMES: usize = 4096;
+/// By how much the lengths of the same arms may differ, as a share.
+const ARM_LENGTH_TOLERANCE: f64 = 1e-3;
+
+/// The rotations of the joints of the arms, by name: skeletons may order their joints differently.
+type ArmRotations = BTreeMap<String, Vec<DQuat>>;
+
+/// The arms of a recording's body.
+struct BodyArms {
+    recording: i64,
+    track: MotionTrack,
+    joints: Vec<usize>,
+    /// The length of their bones in metres.
+    arm_length: f64,
+}
+
+impl BodyArms {
+    /// Opens the body of a recording; nothing if it has no arms.
+    fn open_body_arms(connection: &Connection, recording: i64) -> CorpusResult<Option<Self>> {
+        if stored_recordings::body_track(connection, recording)?.is_none() {
+            return Ok(None);
+        }
+        let track = MotionTrack::open_motion_track(connection, recording)?;
+        let groups = ARM_GROUPS.iter().filter_map(|group| track.groups.get(group));
+        let joints: Vec<usize> = groups.flatten().copied().collect();
+        let offsets = joints.iter().map(|joint| &track.hierarchy.joints[*joint].offset);
+        let lengths = offsets.map(|offset| DVec3::from_array([0, 1, 2].map(|axis| offset[axis].to_f64())).length());
+        let arm_length = lengths.sum::<f64>() * track.convention.metres_per_unit;
+        Ok((!joints.is_empty()).then_some(Self {
+            recording,
+            track,
+            joints,
+            arm_length,
+        }))
+    }
+
+    fn read_arm_rotations(&self, connection: &Connection, frames: Range<usize>) -> CorpusResult<ArmRotations> {
+        let clip = self.track.read_motion_clip(connection, frames, &ARM_GROUPS)?;
+        let joints = self.joints.iter().filter(|joint| **joint < clip.joint_channels().len());
+        let named = joints.map(|&joint| {
+            let name = clip.clip_skeleton().joint_at(joint).name.clone();
+            (name, clip.joint_channel(joint).rotations.clone())
+        });
+        Ok(named.collect())
+    }
+
+    /// Returns how many frames show whose movement it is.
+    fn telling_frame_count(&self) -> usize {
+        let enough = (KEPT_MOVEMENT_SECONDS / self.track.rate.frame_time()).ceil() as usize;
+        // A clip that is shorter counts if all of it is the same.
+        enough.min(self.track.motion_frame_count()).max(2)
+    }
+
+    /// Reads the first frames in which the arms move, with the place of the first of them.
+    fn read_moving_frames(&self, connection: &Connection) -> CorpusResult<Option<(usize, ArmRotations)>> {
+        let (count, enough) = (self.track.motion_frame_count(), self.telling_frame_count());
+        for start in (0..count).step_by(COMPARED_FRAMES) {
+            let end = (start + COMPARED_FRAMES + enough).min(count);
+            let mut turns = self.read_arm_rotations(connection, start..end)?;
+            let is_moving = |first: &usize| (turns.values()).any(|one| moves_between(one, *first, first + enough - 1));
+            if let Some(first) = (0..(end - start + 1).saturating_sub(enough)).find(is_moving) {
+                (turns.values_mut()).for_each(|one| *one = one[first..first + enough].to_vec());
+                return Ok(Some((start + first, turns)));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Reports whether this may be a piece of a take: it is not longer, and the bones of two people differ.
+    fn may_be_piece_of(&self, take: &Self) -> bool {
+        let most = take.arm_length * ARM_LENGTH_TOLERANCE;
+        self.recording != take.recording
+            && self.track.row.frames <= take.track.row.frames
+            && self.track.rate == take.track.rate
+            && (self.arm_length - take.arm_length).abs() <= most
+    }
+}
+
+/// Reports whether two rotations are the same; a quaternion and its negative are.
+fn is_same_rotation((one, two): (&DQuat, &DQuat)) -> bool {
+    one.dot(*two).abs() >= SAME_ROTATION_COSINE
+}
+
+fn moves_between(rotations: &[DQuat], first: usize, last: usize) -> bool {
+    rotations[first].dot(rotations[last]).abs() < MOVING_COSINE
+}
+
+/// Returns the first frame of a take from which on the arms do what they do in the frames of a piece.
+fn find_frames_in_take(piece: &ArmRotations, take: &ArmRotations) -> Option<usize> {
+    let pairs = piece.iter().map(|(name, own)| Some((own, take.get(name)?)));
+    let pairs: Vec<_> = pairs.collect::<Option<_>>()?;
+    let starts = pairs
+        .iter()
+        .map(|(own, turns)| (turns.len() + 1).saturating_sub(own.len()));
+    let is_from =
+        |frame: &usize| (pairs.iter()).all(|(own, turns)| own.iter().zip(&turns[*frame..]).all(is_same_rotation));
+    (0..starts.min()?).find(is_from)
+}
+
+/// Returns those of `pieces` whose arms do what those of a take do that is not shorter, each with its first place in every
+/// such take. A piece is recognised by the first frames in which its arms move.
+pub(crate) fn find_movement_pieces(
+    connection: &Connection,
+    pieces: &BTreeSet<i64>,
+    takes: &BTreeSet<i64>,
+) -> CorpusResult<Vec<MovementPiece>> {
+    let mut moving_pieces = Vec::new();
+    for &piece in pieces.iter().filter(|_| !takes.is_empty()) {
+        if let Some(arms) = BodyArms::open_body_arms(connection, piece)? {
+            let moving = arms.read_moving_frames(connection)?;
+            moving_pieces.extend(moving.map(|(first, turns)| (arms, first, turns)));
+        }
+    }
+    let longest = moving_pieces.iter().map(|(arms, ..)| arms.telling_frame_count()).max();
+    let mut found = Vec::new();
+    for &take in takes.iter().filter(|_| longest.is_some()) {
+        let Some(body) = BodyArms::open_body_arms(connection, take)? else {
+            continue;
+        };
+        let (count, rate) = (body.track.motion_frame_count(), body.track.rate);
+        let mut waiting: Vec<_> = (moving_pieces.iter())
+            .filter(|(arms, ..)| arms.may_be_piece_of(&body))
+            .collect();
+        for start in (0..count).step_by(COMPARED_FRAMES) {
+            // Movement of others is not read at all.
+            if waiting.is_empty() {
+                break;
+            }
+            let end = (start + COMPARED_FRAMES + longest.unwrap_or_default()).min(count);
+            let turns = body.read_arm_rotations(connection, start..end)?;
+            waiting.retain(|(arms, first, own)| {
+                let frame = find_frames_in_take(own, &turns);
+                found.extend(frame.map(|frame| {
+                    let begin = (start + frame).saturating_sub(*first);
+                    let end = (begin + arms.track.motion_frame_count()).min(count);
+                    let [begin, end] = [begin, end].map(|frame| rate.frame_start_instant(frame));
+                    let span = TimeSpan::span_between(begin, end);
+                    let piece = arms.recording;
+                    MovementPiece { piece, take, span }
+                }));
+                frame.is_none()
+            });
+        }
+    }
+    Ok(found)
+}
+
 /// Returns those sources of a generated recording whose movement it shows unchanged.
 pub(super) fn sources_kept_by(
     connection: &Connection,
@@ -38,12 +196,14 @@ pub(super) fn sources_kept_by(
     sources: &BTreeSet<i64>,
 ) -> CorpusResult<BTreeSet<i64>> {
     let mut kept_sources = BTreeSet::new();
-    let Some(generated_body) = load_body_movement(connection, generated)? else {
+    let Some(generated) = BodyArms::open_body_arms(connection, generated)? else {
         return Ok(kept_sources);
     };
+    let read_whole = |arms: &BodyArms| arms.read_arm_rotations(connection, 0..arms.track.motion_frame_count());
+    let own = read_whole(&generated)?;
     for &source in sources {
-        if let Some(source_body) = load_body_movement(connection, source)?
-            && is_movement_kept(&generated_body, &source_body)
+        if let Some(arms) = BodyArms::open_body_arms(connection, source)?
+            && is_movement_kept(&own, &read_whole(&arms)?, generated.telling_frame_count())
         {
             kept_sources.insert(source);
         }
@@ -51,71 +211,32 @@ pub(super) fn sources_kept_by(
     Ok(kept_sources)
 }
 
-/// The movement of a body, and the joints of its arms.
-struct BodyMovement {
-    clip: Clip,
-    arm_joints: Vec<usize>,
-}
-
-fn load_body_movement(connection: &Connection, recording: i64) -> CorpusResult<Option<BodyMovement>> {
-    if stored_recordings::body_track(connection, recording)?.is_none() {
-        return Ok(None);
-    }
-    let track = MotionTrack::open_motion_track(connection, recording)?;
-    let clip = track.read_motion_clip(connection, 0..track.motion_frame_count(), &ARM_GROUPS)?;
-    let joints_of = |group: &ChannelGroup| track.groups.get(group).into_iter().flatten();
-    let arm_joints = ARM_GROUPS.iter().flat_map(joints_of).copied();
-    let arm_joints = arm_joints
-        .filter(|joint| *joint < clip.joint_channels().len())
-        .collect();
-    Ok(Some(BodyMovement { clip, arm_joints }))
-}
-
 /// Reports whether the arms do in successive frames what those of the source do, and move meanwhile. Fingers, face and
 /// the way somebody stands may be others: the movement, by which people are recognised, is the same.
-fn is_movement_kept(generated: &BodyMovement, source: &BodyMovement) -> bool {
-    let name_of = |body: &BodyMovement, joint: usize| body.clip.clip_skeleton().joint_at(joint).name.clone();
-    // The skeletons may order their joints differently, so these are found by name.
-    let source_joints: BTreeMap<String, usize> =
-        (source.arm_joints.iter().map(|&joint| (name_of(source, joint), joint))).collect();
-    let own_joints = generated.arm_joints.iter();
-    let joints: Vec<[usize; 2]> = own_joints
-        .filter_map(|&joint| Some([joint, *source_joints.get(&name_of(generated, joint))?]))
-        .collect();
+fn is_movement_kept(generated: &ArmRotations, source: &ArmRotations, enough: usize) -> bool {
+    let pairs = generated
+        .iter()
+        .filter_map(|(name, own)| Some((own, source.get(name)?)));
+    let pairs: Vec<_> = pairs.collect();
+    let Some([own_count, count]) = pairs.first().map(|(own, other)| [own.len(), other.len()]) else {
+        return false;
+    };
     // Few common joints could be alike by chance.
-    if joints.is_empty() || joints.len() * 2 < generated.arm_joints.len() {
+    if pairs.len() * 2 < generated.len() {
         return false;
     }
-    let (own, other) = (&generated.clip, &source.clip);
-    // A quaternion and its negative are the same rotation.
-    let cosine = |one: DQuat, two: DQuat| one.dot(two).abs();
-    let is_same_frame = |frame: usize, of_source: usize| {
-        joints.iter().all(|&[own_joint, other_joint]| {
-            let own_rotation = own.joint_channel(own_joint).rotations[frame];
-            cosine(own_rotation, other.joint_channel(other_joint).rotations[of_source]) >= SAME_ROTATION_COSINE
-        })
-    };
-    let moves_between = |first: usize, last: usize| {
-        joints.iter().any(|&[_, joint]| {
-            let rotations = &other.joint_channel(joint).rotations;
-            cosine(rotations[first], rotations[last]) < MOVING_COSINE
-        })
-    };
-    let enough = (KEPT_MOVEMENT_SECONDS / own.clip_frame_rate().frame_time()).ceil() as usize;
-    // A clip that is shorter than the span counts as kept if all of it is.
-    let enough = enough.min(own.clip_frame_count()).min(other.clip_frame_count()).max(2);
+    let enough = enough.min(count).max(2);
     // How many frames up to one of the source follow each other in both.
-    let mut runs = vec![0; other.clip_frame_count() + 1];
-    for frame in 0..own.clip_frame_count() {
+    let mut runs = vec![0; count + 1];
+    for frame in 0..own_count {
         // Going backwards, the runs of the former frame are still there to be continued.
-        for of_source in (0..other.clip_frame_count()).rev() {
-            let run = match is_same_frame(frame, of_source) {
-                true => runs[of_source] + 1,
-                false => 0,
-            };
+        for of_source in (0..count).rev() {
+            let is_same = (pairs.iter()).all(|(own, other)| is_same_rotation((&own[frame], &other[of_source])));
+            let run = if is_same { runs[of_source] + 1 } else { 0 };
             runs[of_source + 1] = run;
             // At rest, the arms of all people are alike.
-            if run >= enough && moves_between(of_source + 1 - enough, of_source) {
+            let moves = || (pairs.iter()).any(|(_, other)| moves_between(other, of_source + 1 - enough, of_source));
+            if run >= enough && moves() {
                 return true;
             }
         }

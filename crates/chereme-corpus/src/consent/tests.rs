@@ -365,3 +365,61 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn a_piece_of_a_withheld_take_is_withheld_under_another_signer_too() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = corpus(folder.path());
+    // Later than the first frame, so that its frames and blocks are others than those of the take.
+    let piece = folder.path().join("piece.bvh");
+    let what = crate::ExportWhat::Address(address("sign:BOL"));
+    let mut hear = ignore_progress_step;
+    corpus
+        .export_corpus(
+            &what,
+            &piece,
+            &crate::ExportOptions::default(),
+            &mut ProgressReceiver::new(&mut hear),
+        )
+        .expect("exported");
+    let options = ImportOptions {
+        signer: Some("Cem".into()),
+        origin: Some(RecordOrigin::Captured),
+        licence: Some("CC0".into()),
+        ..ImportOptions::default()
+    };
+    let mut hear = ignore_progress_step;
+    let report = corpus
+        .import_paths(&[piece], &options, &mut ProgressReceiver::new(&mut hear))
+        .expect("imported");
+    let findings = &report.files[0].findings;
+    let known = "its movement is that of the recording \"bol\" from ";
+    assert!(
+        findings
+            .iter()
+            .any(|it| it.message.starts_with(known) && it.message.ends_with(", of Ada")),
+        "{findings:?}"
+    );
+    let mut verdict = |ada: Option<ConsentAudience>| {
+        for (who, audience) in [("signer:Ada", ada), ("signer:Cem", Some(ConsentAudience::Public))] {
+            let change = ConsentChange {
+                movement: Some(audience),
+                derived: Some(audience),
+                ..ConsentChange::default()
+            };
+            corpus.change_consent(&[address(who)], &change).expect("changed");
+        }
+        let connection = corpus.store.read_connection();
+        let known = PublishPermissions::read_publish_permissions(connection, None).expect("read");
+        let row = stored_recordings::recording_named(connection, "piece").expect("read");
+        let terms = known.contributed_terms(row.expect("a recording").id, ConsentKind::Movement);
+        let bol = stored_recordings::recording_named(connection, "bol").expect("read");
+        terms.map(|terms| terms.len()).map_err(|withheld| {
+            assert_eq!(Some(withheld.recording), bol.map(|row| row.id), "because of Ada");
+            withheld.reason
+        })
+    };
+    assert_eq!(verdict(Some(ConsentAudience::Public)), Ok(1));
+    assert_eq!(verdict(Some(ConsentAudience::Nobody)), Err(WithheldReason::NotPublic));
+    assert_eq!(verdict(None), Err(WithheldReason::ConsentUnknown));
+}

@@ -17,6 +17,7 @@ mod import_joining;
 mod import_lexicons;
 mod import_notated;
 mod import_notation;
+mod import_pieces;
 mod import_places;
 mod import_points;
 mod import_report;
@@ -444,6 +445,7 @@ impl ImportRun<'_> {
             let shown = report.files.iter_mut().filter(|file| file.path == stands);
             shown.for_each(|file| "-".clone_into(&mut file.path));
         }
+        import_pieces::report_known_movement_pieces(connection, &mut report.files)?;
         report.joined = import_joining::joined_recordings(&report.files);
         report.complete = true;
         Ok(())

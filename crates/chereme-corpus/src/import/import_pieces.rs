@@ -1,0 +1,40 @@
+//! Captures whose movement the corpus has already, as a stretch of another recording.
+
+use std::collections::BTreeMap;
+
+use rusqlite::Connection;
+
+use super::{FileReport, FileStatus};
+use crate::consent;
+use crate::db::stored_recordings::{self, RecordingRow};
+use crate::error::CorpusResult;
+use crate::report_finding::ReportFinding;
+
+/// Adds to the reports of new captures whose movement theirs is.
+pub(super) fn report_known_movement_pieces(connection: &Connection, files: &mut [FileReport]) -> CorpusResult<()> {
+    let rows = stored_recordings::load_recording_rows(connection)?;
+    let is_capture = |file: &FileReport| file.status == FileStatus::Imported && file.understood.movement.is_some();
+    let new = files.iter().enumerate().filter(|(_, file)| is_capture(file));
+    let new: BTreeMap<i64, usize> = new
+        .filter_map(|(at, file)| {
+            let is_named = |row: &&RecordingRow| Some(&row.name) == file.recording.as_ref();
+            Some((rows.iter().find(is_named)?.id, at))
+        })
+        .collect();
+    let takes = rows.iter().map(|row| row.id).collect();
+    let pieces = new.keys().copied().collect();
+    for found in consent::find_movement_pieces(connection, &pieces, &takes)? {
+        let Some(take) = rows.iter().find(|row| row.id == found.take) else {
+            continue;
+        };
+        let (start, end) = (found.span.span_start_instant(), found.span.span_end_instant());
+        let (name, signer) = (&take.name, take.signer.as_deref().unwrap_or("-"));
+        let message = format!("its movement is that of the recording {name:?} from {start} to {end}, of {signer}");
+        files[new[&found.piece]].findings.push(ReportFinding::finding_warning(
+            message,
+            "it shows the same person, so that the narrower consent of the two recordings holds; give both the same \
+             signer, or undo the import",
+        ));
+    }
+    Ok(())
+}
