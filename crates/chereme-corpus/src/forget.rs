@@ -12,7 +12,7 @@ use serde::Serialize;
 
 use crate::Corpus;
 use crate::address::{self, RowName};
-use crate::consent::PublishPermissions;
+use crate::consent::{self, PublishPermissions};
 use crate::db::stored_erase::{self, ErasedTraces};
 use crate::db::{consents, edits, stored_recordings};
 use crate::error::{CorpusError, CorpusResult};
@@ -56,7 +56,7 @@ impl Corpus {
     ///
     /// # Errors
     /// Fails if there is no such signer, or if something else needs the recordings: signs of others that were made from
-    /// them, recordings that show others, too, recordings of others that the person annotated, studies, and decisions that are open after a merge. Fails if another
+    /// them, recordings of others with the same movement, recordings that show others, too, recordings of others that the person annotated, studies, and decisions that are open after a merge. Fails if another
     /// program uses the file, or if something was found in the bytes afterwards.
     pub fn forget_signer(
         &mut self,
@@ -153,6 +153,13 @@ fn refuse_what_is_needed(connection: &Connection, signer: &str, recordings: &BTr
         "signs of others were made from the recordings",
         ErrorRemedy::command_remedy("delete them first: `chereme delete CORPUS recording:NAME`"),
     )?;
+    refuse(
+        &find_same_movement_of_others(connection, recordings)?,
+        "recordings of others show the same movement",
+        ErrorRemedy::command_remedy(
+            "give them this signer, or delete them first: `chereme delete CORPUS recording:NAME`",
+        ),
+    )?;
     let mut with_others = BTreeSet::new();
     for (recording, participant) in consents::list_tier_participants(connection)? {
         let is_signer = fold_text(&participant) == fold_text(signer.trim());
@@ -182,6 +189,31 @@ fn refuse_what_is_needed(connection: &Connection, signer: &str, recordings: &BTr
         "a merge left decisions open, which may hold texts of the person",
         ErrorRemedy::command_remedy("decide them first: `chereme conflicts CORPUS` lists them"),
     )
+}
+
+/// Returns the other recordings that hold the movement of these, whole or in part, or came from the same captured files, each
+/// with its signer: while they stay, the movement is not gone.
+fn find_same_movement_of_others(connection: &Connection, recordings: &BTreeSet<i64>) -> CorpusResult<Vec<String>> {
+    let rows = stored_recordings::load_recording_rows(connection)?;
+    let others = rows
+        .iter()
+        .map(|row| row.id)
+        .filter(|id| !recordings.contains(id))
+        .collect();
+    let mut found = consent::find_movement_pieces(connection, recordings, &others)?;
+    found.extend(consent::find_movement_pieces(connection, &others, recordings)?);
+    let mut holders: BTreeSet<i64> = found.iter().flat_map(|found| [found.piece, found.take]).collect();
+    for &recording in recordings {
+        let files = stored_recordings::source_files(connection, recording)?;
+        for file in files.iter().filter(|file| file.is_capture()) {
+            let copies = stored_recordings::source_files_of_hash(connection, &file.hash)?;
+            holders.extend(copies.iter().filter_map(|copy| copy.recording_id));
+        }
+    }
+    holders.retain(|id| others.contains(id));
+    let held = rows.iter().filter(|row| holders.contains(&row.id));
+    let shown = held.map(|row| format!("{} ({})", row.name, row.signer.as_deref().unwrap_or("-")));
+    Ok(shown.collect())
 }
 
 fn recording_names(connection: &Connection, recordings: &BTreeSet<i64>) -> CorpusResult<Vec<String>> {

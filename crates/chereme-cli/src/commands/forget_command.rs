@@ -18,8 +18,8 @@ const MAX_SHOWN_ROWS: usize = 5;
 /// again, and its bytes are searched for every hash, identity, name and text that was removed; the report says how many
 /// were searched for. Texts that rows of somebody else say, too, such as a gloss, stay and are listed.
 ///
-/// Nothing is forgotten while something else needs it: signs of others made from these recordings, recordings that show
-/// others, too, studies, and open decisions after a merge. Films beside the corpus, copies elsewhere, exports and
+/// Nothing is forgotten while something else needs it: signs of others made from these recordings, recordings of others
+/// with the same movement, recordings that show others, too, studies, and open decisions after a merge. Films beside the corpus, copies elsewhere, exports and
 /// publications are files that this program does not know: delete them yourself, and publish again.
 ///
 /// `--json` gives "signer", "dry_run", "recordings", "older_files", "searched" and "still_said", each with "text" and

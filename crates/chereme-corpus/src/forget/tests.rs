@@ -1,6 +1,6 @@
 use super::*;
 use crate::consent::tests::corpus;
-use crate::{ExportOptions, ExportWhat, RecordingChange, ignore_progress_step};
+use crate::{ExportOptions, ExportWhat, ImportOptions, RecordingChange, ignore_progress_step};
 
 fn forget(corpus: &mut Corpus, dry_run: bool) -> CorpusResult<ForgottenSigner> {
     let mut hear = ignore_progress_step;
@@ -92,4 +92,48 @@ fn what_something_else_needs_is_not_forgotten() {
     named.expect("changed");
     let refused = forget(&mut corpus, false).expect_err("Ada is in it");
     assert!(refused.to_string().contains("and others: qzrecordingzq"), "{refused}");
+}
+
+#[test]
+fn a_person_whose_movement_stands_under_another_name_is_not_forgotten() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = two_signers(folder.path());
+    let file = folder.path().join("files").join("bol.bvh");
+    let copy = folder.path().join("copy.bvh");
+    // The same bytes, and the same numbers in other bytes.
+    for text in [
+        fs::read_to_string(&file).expect("read"),
+        fs::read_to_string(&file).expect("read") + "\n\n",
+    ] {
+        fs::write(&copy, text).expect("written");
+        let options = ImportOptions {
+            signer: Some("Cem".into()),
+            ..ImportOptions::default()
+        };
+        let mut hear = ignore_progress_step;
+        let report = corpus
+            .import_paths(
+                std::slice::from_ref(&copy),
+                &options,
+                &mut ProgressReceiver::new(&mut hear),
+            )
+            .expect("imported");
+        let messages: Vec<&str> = report.files[0].findings.iter().map(|it| it.message.as_str()).collect();
+        let known = "its movement is that of the recording \"qzrecordingzq\" from ";
+        assert!(
+            messages
+                .iter()
+                .any(|it| it.starts_with(known) && it.ends_with("of Qzbeazq")),
+            "{messages:?}"
+        );
+        for dry_run in [true, false] {
+            let refused = forget(&mut corpus, dry_run).expect_err("Cem's recording shows it");
+            assert!(
+                refused.to_string().ends_with("the same movement: copy (Cem)"),
+                "{refused}"
+            );
+        }
+        corpus.undo_operation().expect("undone");
+    }
+    assert!(forget(&mut corpus, false).is_ok(), "nothing holds it any more");
 }
