@@ -9,24 +9,25 @@ use super::signs;
 use crate::db::cached_sql::CachedSql;
 use crate::error::CorpusResult;
 
-/// Selects the fields of the token `t` with opinions whose annotation `o` has this origin, separated by blanks.
+/// Selects the fields of the token `t` with opinions of this standing, separated by blanks.
 macro_rules! opinion_fields_sql {
-    ($origin:literal) => {
+    ($standing:literal) => {
         concat!(
             "(SELECT group_concat(field, ' ') FROM (SELECT DISTINCT coalesce(v.phase || '.', '')
                  || coalesce(v.hand || '.', '') || v.component || coalesce('.' || v.feature, '') AS field
               FROM token_value v JOIN annotation o ON o.id = v.annotation_id
-              WHERE v.token_id = t.id AND v.state = 'unset' AND o.origin ",
-            $origin,
-            " ORDER BY 1))"
+              WHERE v.token_id = t.id AND v.state = 'unset'
+                  AND coalesce(v.standing, iif(o.origin = 'detector', 'proposed', 'disputed')) = '",
+            $standing,
+            "' ORDER BY 1))"
         )
     };
 }
 
 /// The fields on which annotators do not agree.
-pub(crate) const DISPUTED_FIELDS_SQL: &str = opinion_fields_sql!("<> 'detector'");
+pub(crate) const DISPUTED_FIELDS_SQL: &str = opinion_fields_sql!("disputed");
 /// The fields for which a detector proposes a value.
-pub(crate) const PROPOSED_FIELDS_SQL: &str = opinion_fields_sql!("= 'detector'");
+pub(crate) const PROPOSED_FIELDS_SQL: &str = opinion_fields_sql!("proposed");
 
 /// Returns the disputed and the proposed fields of each of these tokens.
 pub(crate) fn load_token_marks(connection: &Connection, tokens: &[i64]) -> CorpusResult<BTreeMap<i64, [String; 2]>> {
