@@ -13,7 +13,9 @@ use sha2::{Digest, Sha256};
 use crate::Corpus;
 use crate::IndexedStore;
 use crate::address::message_names;
+use crate::db::signs::{self, TokenRow, TokenValueRow};
 use crate::db::stored_check as rows;
+use crate::db::stored_columns::OpinionStanding;
 use crate::db::stored_motion::to_hex_text;
 use crate::db::stored_search::{self as index_rows, SearchIndexState};
 use crate::db::{notations, people, seals, stored_recordings, stored_studies, stored_tiers, stored_tracks};
@@ -515,9 +517,20 @@ impl CheckRun<'_, '_> {
                 // A derivation that changes nothing leaves no change in the history.
                 Ok(rows::count_recorded_changes(connection)? - before)
             });
-            match derived {
-                Ok(0) => {}
-                Ok(_) => self.report_check_fault(
+            let is_as_derived = match derived {
+                Ok(0) => Ok(true),
+                Ok(_) => rows::run_and_roll_back(connection, || {
+                    let stored = counted_token_values(connection, recording.id)?;
+                    tokens::derive_with_progress(connection, recording.id, None, &inventories, self.progress)?;
+                    let derived = counted_token_values(connection, recording.id)?;
+                    // An older program kept nothing of what others say of a value that counts.
+                    Ok(stored.0 == derived.0 && stored.1 == 0)
+                }),
+                Err(error) => Err(error),
+            };
+            match is_as_derived {
+                Ok(true) => {}
+                Ok(false) => self.report_check_fault(
                     "tokens",
                     place,
                     "its tokens do not agree with its tiers",
@@ -532,6 +545,23 @@ impl CheckRun<'_, '_> {
         }
         Ok(())
     }
+}
+
+/// Returns the tokens of a recording with their values and opinions, and apart from them the number of opinions about values
+/// that count.
+fn counted_token_values(
+    connection: &Connection,
+    recording: i64,
+) -> CorpusResult<(Vec<(TokenRow, Vec<TokenValueRow>)>, usize)> {
+    let (mut tokens, mut others) = (Vec::new(), 0);
+    for token in signs::tokens_of_recording(connection, recording)? {
+        let mut values = signs::load_values_and_opinions(connection, token.id)?;
+        let all = values.len();
+        values.retain(|row| !matches!(row.standing, Some(OpinionStanding::Agreed | OpinionStanding::Replaced)));
+        others += all - values.len();
+        tokens.push((token, values));
+    }
+    Ok((tokens, others))
 }
 
 /// Returns what corrects a broken rule of tiers.

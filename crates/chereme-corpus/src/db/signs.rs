@@ -78,7 +78,7 @@ pub(crate) struct TokenValueRow {
     pub inventory_id: Option<i64>,
     /// The annotation that gives the value.
     pub annotation_id: Option<i64>,
-    /// Why the value of the annotation does not count, unless it does.
+    /// Why the value of the annotation does not count, unless it does, or is [as usual](OpinionStanding::is_usual).
     pub standing: Option<OpinionStanding>,
 }
 
@@ -468,8 +468,7 @@ pub(crate) fn is_opinion(connection: &Connection, annotation: i64) -> CorpusResu
     connection.has_rows(&sql, [annotation])
 }
 
-/// Returns the standings of annotations that say something of a token which does not count; that of a row of an earlier
-/// program is unknown.
+/// Returns the standings of annotations that say something of a token which does not count, as far as they are not usual.
 #[cfg(feature = "parquet")]
 pub(crate) fn opinion_standings(connection: &Connection) -> CorpusResult<BTreeMap<i64, Option<OpinionStanding>>> {
     let sql = format!("SELECT annotation_id, standing FROM token_value WHERE {IS_OPINION_SQL}");

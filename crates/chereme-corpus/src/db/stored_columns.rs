@@ -304,6 +304,11 @@ pub enum OpinionStanding {
 }
 
 impl OpinionStanding {
+    /// Returns whether rows of tokens leave it out: a detector's annotation is proposed, and others are disputed.
+    pub(crate) fn is_usual(self) -> bool {
+        matches!(self, Self::Proposed | Self::Disputed)
+    }
+
     /// Returns the name in queries and answers.
     #[must_use]
     pub fn standing_name(self) -> &'static str {

@@ -188,7 +188,8 @@ fn counted_row(field: &ComponentField, source: &CodedAnnotation) -> TokenValueRo
 /// Returns the row of an opinion: the field has no value from it, and its annotation says what it would be.
 fn opinion_row(field: &ComponentField, source: &CodedAnnotation, standing: OpinionStanding) -> TokenValueRow {
     TokenValueRow {
-        standing: Some(standing),
+        // The origin of the annotation shows which of the usual ones it has.
+        standing: Some(standing).filter(|standing| !standing.is_usual()),
         inventory_id: source.inventory,
         annotation_id: Some(source.annotation),
         ..TokenValueRow::from_field_reading(field, &chereme_sign::ComponentReading::Unset)

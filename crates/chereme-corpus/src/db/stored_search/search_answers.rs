@@ -147,7 +147,7 @@ pub(crate) struct AnnotationOpinion {
     pub(crate) detector: Option<String>,
     /// What the detector proposed before a person gave another value.
     pub(crate) proposed: Option<String>,
-    /// The standing of opinions that an earlier program wrote without one.
+    /// The standing of an opinion without one.
     pub(crate) usual_standing: OpinionStanding,
 }
 

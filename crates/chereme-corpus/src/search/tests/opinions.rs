@@ -293,6 +293,28 @@ fn an_annotator_is_found_by_values_that_others_say_too_and_by_every_name() {
 }
 
 #[test]
+fn tokens_of_an_older_program_lack_what_others_say_of_a_counting_value_and_are_well() {
+    let mut sample = corpus_of_one_sign(&[
+        by_person("anna", &[(0, 1000, "flat")]),
+        by_person("ben", &[(0, 1000, "flat")]),
+    ]);
+    for (change, faults) in [
+        ("DELETE FROM token_value WHERE standing = 'agreed'", 0),
+        ("UPDATE token_value SET value = '5' WHERE value = 'flat'", 1),
+    ] {
+        sample.work(|connection| {
+            assert_eq!(connection.execute(change, [])?, 1, "{change}");
+            Ok(())
+        });
+        let mut hear = ignore_progress_step;
+        let report = sample.corpus.check_corpus(false, &mut ProgressReceiver::new(&mut hear));
+        let report = report.expect("checked");
+        let of_tokens = report.all_findings().filter(|fault| fault.kind == "tokens");
+        assert_eq!(of_tokens.count(), faults, "{change}");
+    }
+}
+
+#[test]
 fn braces_ask_who_says_this_very_value() {
     let proposal = Said {
         field: "right.placement",
