@@ -219,7 +219,7 @@ fn from_neighbour(
             if setting.signer.is_none() || example.signer != setting.signer {
                 continue;
             }
-            let Some(pose) = pose_agreeing_with_value(sources, example, &value, side)? else {
+            let Some(pose) = pose_agreeing_with_value(sources, example, value, side)? else {
                 continue;
             };
             let (a, b, c) = (pose.angles.to_array(), angles.to_array(), other.to_array());

@@ -547,12 +547,12 @@ impl CheckRun<'_, '_> {
     }
 }
 
+/// Tokens with their values and opinions.
+type ValuedTokens = Vec<(TokenRow, Vec<TokenValueRow>)>;
+
 /// Returns the tokens of a recording with their values and opinions, and apart from them the number of opinions about values
 /// that count.
-fn counted_token_values(
-    connection: &Connection,
-    recording: i64,
-) -> CorpusResult<(Vec<(TokenRow, Vec<TokenValueRow>)>, usize)> {
+fn counted_token_values(connection: &Connection, recording: i64) -> CorpusResult<(ValuedTokens, usize)> {
     let (mut tokens, mut others) = (Vec::new(), 0);
     for token in signs::tokens_of_recording(connection, recording)? {
         let mut values = signs::load_values_and_opinions(connection, token.id)?;
