@@ -492,7 +492,7 @@ impl Corpus {
                     let sure = choice
                         .least_confidence
                         .is_none_or(|least| row.confidence >= Some(least));
-                    row.origin == AnnotationOrigin::Detector && span.is_none_or(shares) && sure
+                    tier.is_proposal(row) && span.is_none_or(shares) && sure
                 };
                 proposals.extend(rows.filter(is_wanted).map(|row| row.id));
             }

@@ -13,7 +13,7 @@ use rusqlite::Connection;
 use crate::Corpus;
 use crate::db::lexicons;
 use crate::db::signs::{self, TokenRow, TokenValueRow};
-use crate::db::stored_columns::{AnnotationOrigin, OpinionStanding};
+use crate::db::stored_columns::OpinionStanding;
 use crate::db::stored_merge;
 use crate::db::stored_recordings::{self, RecordingRow, SignerRow};
 use crate::db::stored_search::search_answers;
@@ -309,7 +309,7 @@ impl AnnotationsByTime {
                 annotation: row.id,
                 tier: tier.id,
                 annotator: tier.annotator.clone(),
-                proposal: (row.origin == AnnotationOrigin::Detector).then_some(standing),
+                proposal: tier.is_proposal(row).then_some(standing),
                 inventory: tier.inventory_id,
                 participant: tier.participant.clone(),
             });

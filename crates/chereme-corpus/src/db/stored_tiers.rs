@@ -78,7 +78,25 @@ pub fn is_detector_tier(tier: &str) -> bool {
     proposed_for(tier).is_some() || tier.ends_with(REJECTED_TIER_SUFFIX)
 }
 
+/// Distinguishes what a detector says, and no person accepted or corrected, for an annotation `a` on a tier `t`: also where a file
+/// brought a tier of proposals.
+macro_rules! is_proposal_sql {
+    () => {
+        "(a.origin = 'detector' OR a.origin = 'file' AND (t.name LIKE '% (proposed)' OR t.name LIKE '% (rejected)'))"
+    };
+}
+pub(crate) use is_proposal_sql;
+
 impl TierRow {
+    /// Returns whether an annotation of this tier is what a detector says, and no person accepted or corrected.
+    pub(crate) fn is_proposal(&self, row: &AnnotationRow) -> bool {
+        match row.origin {
+            AnnotationOrigin::Detector => true,
+            AnnotationOrigin::File => is_detector_tier(&self.name),
+            AnnotationOrigin::Human | AnnotationOrigin::Made => false,
+        }
+    }
+
     /// Returns the tier's display settings from ELAN.
     #[must_use]
     pub fn elan_display_settings(&self) -> TierShown {

@@ -6,6 +6,7 @@ use rusqlite::Connection;
 
 use super::people::SIGNED_TOKENS_SQL;
 use super::signs;
+use super::stored_tiers::is_proposal_sql;
 use crate::db::cached_sql::CachedSql;
 use crate::error::CorpusResult;
 
@@ -15,9 +16,11 @@ macro_rules! opinion_fields_sql {
         concat!(
             "(SELECT group_concat(field, ' ') FROM (SELECT DISTINCT coalesce(v.phase || '.', '')
                  || coalesce(v.hand || '.', '') || v.component || coalesce('.' || v.feature, '') AS field
-              FROM token_value v JOIN annotation o ON o.id = v.annotation_id
-              WHERE v.token_id = t.id AND v.state = 'unset'
-                  AND coalesce(v.standing, iif(o.origin = 'detector', 'proposed', 'disputed')) = '",
+              FROM token_value v JOIN annotation a ON a.id = v.annotation_id
+              WHERE v.token_id = t.id AND v.state = 'unset' AND coalesce(v.standing, iif(EXISTS
+                  (SELECT 1 FROM tier t WHERE t.id = a.tier_id AND ",
+            is_proposal_sql!(),
+            "), 'proposed', 'disputed')) = '",
             $standing,
             "' ORDER BY 1))"
         )

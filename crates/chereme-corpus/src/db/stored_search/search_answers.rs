@@ -13,6 +13,7 @@ use crate::db::stored_attributes::AttributeRow;
 use crate::db::stored_columns::{
     OpinionStanding, RecordOrigin, ValueState, read_phase_columns, read_role_columns, read_word_column, word_or_null,
 };
+use crate::db::stored_tiers::is_proposal_sql;
 use crate::error::CorpusResult;
 
 /// Returns two numbers that change whenever any connection changes a row.
@@ -160,14 +161,16 @@ pub(crate) fn opinion_of_annotation(
     annotation: i64,
 ) -> rusqlite::Result<Option<AnnotationOpinion>> {
     connection
-        .prepare_cached(
-            "SELECT a.origin, a.state, trim(a.value), t.annotator, coalesce(a.confidence, a.source ->> '$.confidence'),
-                 a.source ->> '$.detector' || ' ' || (a.source ->> '$.version'), a.source ->> '$.proposed'
-             FROM annotation a JOIN tier t ON t.id = a.tier_id WHERE a.id = ?1",
-        )?
+        .prepare_cached(concat!(
+            "SELECT ",
+            is_proposal_sql!(),
+            ", a.state, trim(a.value), t.annotator, coalesce(a.confidence, a.source ->> '$.confidence'),
+                     a.source ->> '$.detector' || ' ' || (a.source ->> '$.version'), a.source ->> '$.proposed'
+                 FROM annotation a JOIN tier t ON t.id = a.tier_id WHERE a.id = ?1"
+        ))?
         .query_row([annotation], |row| {
             // A proposal has no annotator whose word could stand against others'.
-            let is_proposal = row.get_ref(0)?.as_str() == Ok(DETECTOR_NAME);
+            let is_proposal: bool = row.get(0)?;
             Ok(AnnotationOpinion {
                 state: read_word_column(row, 1)?,
                 value: row.get(2)?,
@@ -223,10 +226,11 @@ pub(crate) fn visit_token_opinions(
 pub(crate) fn tokens_by_annotator(connection: &Connection, is_meant: &dyn Fn(&str) -> bool) -> CorpusResult<Vec<i64>> {
     let mut tokens = Vec::new();
     for name in annotator_names(connection)?.into_iter().filter(|name| is_meant(name)) {
-        let mut statement = connection.prepare_cached(
+        let mut statement = connection.prepare_cached(concat!(
             "SELECT v.token_id FROM tier t JOIN annotation a ON a.tier_id = t.id
-             JOIN token_value v ON v.annotation_id = a.id WHERE t.annotator = ?1 AND a.origin <> 'detector'",
-        )?;
+                 JOIN token_value v ON v.annotation_id = a.id WHERE t.annotator = ?1 AND NOT ",
+            is_proposal_sql!()
+        ))?;
         let rows = statement.query_map([name], |row| row.get(0))?;
         tokens.extend(rows.collect::<rusqlite::Result<Vec<i64>>>()?);
     }
@@ -337,18 +341,21 @@ pub(crate) fn visit_said_values(
     component: &str,
     mut take: impl FnMut(&SaidValue<'_>) -> CorpusResult<()>,
 ) -> CorpusResult<()> {
-    let sql = "SELECT NULL, NULL, v.hand, v.component, v.feature, v.phase, v.position,
+    let is_proposal = is_proposal_sql!();
+    let sql = format!(
+        "SELECT NULL, NULL, v.hand, v.component, v.feature, v.phase, v.position,
              iif(v.state = 'unset' AND a.id IS NOT NULL, a.state, v.state),
              iif(v.state = 'unset' AND a.id IS NOT NULL, trim(a.value), v.value),
-             v.token_id, v.state = 'unset' AND a.id IS NOT NULL, a.origin = 'detector', n.annotator, a.confidence,
+             v.token_id, v.state = 'unset' AND a.id IS NOT NULL, {is_proposal}, t.annotator, a.confidence,
              coalesce(p.handedness, g.handedness) = 'left', v.standing
-         FROM token_value v JOIN token t ON t.id = v.token_id
-         LEFT JOIN annotation a ON a.id = v.annotation_id LEFT JOIN tier n ON n.id = a.tier_id
-         LEFT JOIN annotation b ON b.id = t.annotation_id LEFT JOIN tier i ON i.id = b.tier_id
+         FROM token_value v JOIN token k ON k.id = v.token_id
+         LEFT JOIN annotation a ON a.id = v.annotation_id LEFT JOIN tier t ON t.id = a.tier_id
+         LEFT JOIN annotation b ON b.id = k.annotation_id LEFT JOIN tier i ON i.id = b.tier_id
          LEFT JOIN signer p ON p.name = i.participant
-         LEFT JOIN recording r ON r.id = t.recording_id LEFT JOIN signer g ON g.id = r.signer_id
-         WHERE v.component = ?1";
-    connection.visit_rows(sql, [component], |row| {
+         LEFT JOIN recording r ON r.id = k.recording_id LEFT JOIN signer g ON g.id = r.signer_id
+         WHERE v.component = ?1"
+    );
+    connection.visit_rows(&sql, [component], |row| {
         let (is_opinion, is_detected): (bool, Option<bool>) = (row.get(10)?, row.get(11)?);
         let standing = match (is_opinion, word_or_null(row, 15)?) {
             (false, _) => None,
@@ -399,15 +406,19 @@ pub(crate) fn coded_in_recording(
          LEFT JOIN annotation a ON a.id = v.annotation_id
          WHERE t.recording_id = ?1 AND v.component = ?2 AND (?3 OR v.state <> 'unset' OR a.id IS NULL)"
     } else {
-        "SELECT a.start_us, a.end_us, i.hand, i.component, i.feature, NULL, 0, a.state, a.value
-         FROM tier i JOIN annotation a ON a.tier_id = i.id
-         WHERE i.recording_id = ?1 AND i.role = 'component' AND i.component = ?2
-             AND (?3 OR a.origin <> 'detector')
+        concat!(
+            "SELECT a.start_us, a.end_us, t.hand, t.component, t.feature, NULL, 0, a.state, a.value
+         FROM tier t JOIN annotation a ON a.tier_id = t.id
+         WHERE t.recording_id = ?1 AND t.role = 'component' AND t.component = ?2
+             AND (?3 OR NOT ",
+            is_proposal_sql!(),
+            ")
          UNION ALL
          SELECT t.start_us, t.end_us, v.hand, v.component, v.feature, v.phase, v.position, v.state,
              v.value
          FROM token t JOIN token_value v ON v.token_id = t.id
          WHERE t.recording_id = ?1 AND v.component = ?2 AND v.annotation_id IS NULL"
+        )
     };
     each_coded(connection, sql, (recording, asked.component, asked.opinions), take)
 }

@@ -21,7 +21,7 @@ use crate::address::RecordingStretch;
 use crate::consent::ConsentAudience;
 use crate::db::signs;
 use crate::db::stored_attributes;
-use crate::db::stored_columns::{AnnotationOrigin, OpinionStanding, ValueState, phase_name, phase_place};
+use crate::db::stored_columns::{OpinionStanding, ValueState, phase_name, phase_place};
 use crate::db::stored_recordings;
 use crate::db::stored_search::search_answers;
 use crate::db::stored_tiers::{self, AnnotationRow, TierRow};
@@ -334,11 +334,11 @@ fn push_annotation_cells(
     for (number, cells) in doubles.into_iter().zip(columns.by_ref()) {
         cells.push_double(number);
     }
-    let standing = match (row.origin, opinion) {
-        (_, Some(Some(standing))) => standing.standing_name(),
-        (AnnotationOrigin::Detector, _) => OpinionStanding::Proposed.standing_name(),
-        (_, Some(None)) => OpinionStanding::Disputed.standing_name(),
-        (_, None) => "coded",
+    let standing = match opinion {
+        Some(Some(standing)) => standing.standing_name(),
+        _ if tier.is_proposal(row) => OpinionStanding::Proposed.standing_name(),
+        Some(None) => OpinionStanding::Disputed.standing_name(),
+        None => "coded",
     };
     for (cells, text) in columns.zip([row.origin.annotation_origin_name(), standing]) {
         cells.push_text(Some(text));

@@ -123,6 +123,26 @@ fn a_proposal_that_a_person_corrected_leaves_its_neighbours_proposals() {
 }
 
 #[test]
+fn a_tier_of_proposals_that_a_file_brings_holds_proposals() {
+    let mut sample = corpus_of_one_sign(&[by_person("anna", &[(0, 1000, "flat")])]);
+    for (suffix, origin, wanted) in [
+        ("(proposed)", "file", " | right.configuration=flat proposed detector"),
+        ("(rejected)", "file", " | right.configuration=flat rejected detector"),
+        // A person corrected it where it lies.
+        ("(proposed)", "human", "right.configuration=\"flat\" | "),
+        ("of proposed values", "file", "right.configuration=\"flat\" | "),
+    ] {
+        sample.work(|connection| {
+            let name = format!("configuration right {suffix}");
+            connection.execute("UPDATE tier SET name = ?1 WHERE component = 'configuration'", [name])?;
+            connection.execute("UPDATE annotation SET origin = ?1 WHERE value = 'flat'", [origin])?;
+            tokens::update_recording_tokens(connection, 1, None, &[])
+        });
+        assert_eq!(coding(&mut sample), wanted, "{suffix} {origin}");
+    }
+}
+
+#[test]
 fn two_annotators_are_two_readings_and_one_of_them_counts_or_none() {
     for (all, wanted) in [
         (
