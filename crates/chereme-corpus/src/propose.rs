@@ -346,6 +346,7 @@ impl Corpus {
                 }
             }
         }
+        report.findings.extend(self.finger_range_finding(&values)?);
         for (why, glosses) in &unread {
             let shown: Vec<&str> = glosses.iter().copied().take(MOST_UNREAD_NAMES).collect();
             let more = if shown.len() < glosses.len() { ", …" } else { "" };
@@ -437,6 +438,26 @@ impl Corpus {
             }
         };
         Ok(answer.hits.into_iter().filter(is_in).collect())
+    }
+
+    /// Returns a finding with the other takes from which the range of the fingers of proposed handshapes is measured.
+    fn finger_range_finding(&self, values: &ProposedTierValues) -> CorpusResult<Option<String>> {
+        let connection = self.store.read_connection();
+        let of_shapes = values
+            .keys()
+            .filter(|(_, (part, ..))| *part == SignComponent::Configuration);
+        let recordings: BTreeSet<&String> = of_shapes.map(|(recording, _)| recording).collect();
+        let mut takes = BTreeSet::new();
+        for name in recordings {
+            let recording = crate::address::find_recording_by_name(connection, &RowName::Text(name.clone()))?;
+            takes.extend(crate::hands::hand_range_takes(connection, &self.hands, recording.id)?);
+        }
+        let mut names: Vec<String> = takes.into_iter().take(MOST_UNREAD_NAMES + 1).collect();
+        if let Some(last) = names.get_mut(MOST_UNREAD_NAMES) {
+            "…".clone_into(last);
+        }
+        let text = "the range of the fingers is measured from other takes of the signer, too";
+        Ok((!names.is_empty()).then(|| format!("{text}: {}", names.join(", "))))
     }
 
     /// Returns the takes of a scope that move but have no signs yet.
