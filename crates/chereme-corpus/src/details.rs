@@ -94,7 +94,7 @@ pub struct TokenValue {
     pub confidence: Option<f64>,
     /// The detector that found it, with its version, if a person accepted or corrected a proposal.
     pub detector: Option<String>,
-    /// What the detector proposed before a person corrected it.
+    /// The value that the detector proposed, if a person corrected it.
     pub proposed: Option<String>,
 }
 
@@ -154,7 +154,7 @@ pub struct SignDetails {
 pub struct SignerDetails {
     /// Names, attributes and what the person does in the corpus.
     pub person: PersonContents,
-    /// What the person agreed to.
+    /// The consent of the person.
     pub consent: PersonConsent,
     /// The recordings.
     pub recordings: Vec<RecordingRow>,
@@ -167,7 +167,7 @@ pub struct SignerDetails {
 pub struct RecordingDetails {
     /// The row.
     pub id: i64,
-    /// What is agreed to for this recording alone.
+    /// The consent for this recording alone.
     pub consent: PersonConsent,
     /// How many joints its skeleton has.
     pub joints: usize,

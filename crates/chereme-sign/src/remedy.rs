@@ -44,7 +44,7 @@ pub enum RemedyChoice {
     OtherCorpus,
     /// The check of the corpus.
     Check,
-    /// What a person or a recording agreed to.
+    /// The consent of a person or a recording.
     Consent,
     /// The notation of a sign, or movement for it.
     Notation,

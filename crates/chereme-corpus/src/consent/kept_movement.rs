@@ -129,7 +129,7 @@ fn moves_between(rotations: &[DQuat], first: usize, last: usize) -> bool {
     rotations[first].dot(rotations[last]).abs() < MOVING_COSINE
 }
 
-/// Returns the first frame of a take from which on the arms do what they do in the frames of a piece.
+/// Returns the first frame of a take at which the arms begin to move as in the frames of a piece.
 fn find_frames_in_take(piece: &ArmRotations, take: &ArmRotations) -> Option<usize> {
     let pairs = piece.iter().map(|(name, own)| Some((own, take.get(name)?)));
     let pairs: Vec<_> = pairs.collect::<Option<_>>()?;

@@ -351,7 +351,7 @@ impl TranscriptMergeWork<'_> {
         if fails {
             self.record_merge_conflict(before, mine, Some(new));
         } else if moved.is_some() && self.state_now(&own) != mine {
-            // What both moved alike may overlap an addition of mine as much as it does in both documents.
+            // An annotation that both moved alike may overlap an addition of mine as much as it does in both documents.
             self.brought.push((own, new, mine));
         }
     }

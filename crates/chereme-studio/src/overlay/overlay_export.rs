@@ -113,7 +113,7 @@ impl ExportWindow {
     pub(crate) fn toggle_export_window(&mut self) {
         self.open = !self.open;
         (self.what, self.typed, self.wrong, self.written) = (None, false, None, None);
-        // What was once written for others must not be the usual choice by accident, nor the other way round.
+        // Each export is for oneself unless others are chosen, so that nothing goes out because the last one did.
         self.audience = OutputAudience::default();
     }
 

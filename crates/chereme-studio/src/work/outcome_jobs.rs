@@ -113,7 +113,7 @@ pub(crate) enum WorkOutcome {
         title: String,
         /// The file.
         path: PathBuf,
-        /// What was left out, and who has not agreed that others see it.
+        /// The objects that were left out, each with those who have not agreed that others see it.
         notes: Vec<String>,
     },
     /// A piece of movement.

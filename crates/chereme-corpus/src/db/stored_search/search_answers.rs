@@ -137,7 +137,7 @@ pub(crate) fn coded_of_token(connection: &Connection, token: i64, take: impl FnM
     each_coded(connection, &sql, [token], take)
 }
 
-/// What an annotation says of a token.
+/// The statement of an annotation about a token.
 pub(crate) struct AnnotationOpinion {
     pub(crate) state: ValueState,
     pub(crate) value: String,
@@ -146,7 +146,7 @@ pub(crate) struct AnnotationOpinion {
     pub(crate) confidence: Option<f64>,
     /// The detector that found it, whoever accepted or corrected it.
     pub(crate) detector: Option<String>,
-    /// What the detector proposed before a person gave another value.
+    /// The value that the detector proposed, if a person gave another one.
     pub(crate) proposed: Option<String>,
     /// The standing of an opinion without one.
     pub(crate) usual_standing: OpinionStanding,

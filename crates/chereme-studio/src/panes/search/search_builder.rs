@@ -196,7 +196,7 @@ pub(crate) fn term_from_condition(row: &QueryCondition) -> QueryExpression {
     }
 }
 
-/// Returns the term of a component with the conditions on who says the value. Nobody says that there is none.
+/// Returns the term of a component with the conditions on who says the value. A missing value has no author, and gets no conditions.
 fn said_term(value: QueryExpression, sources: Vec<QueryTest>) -> QueryExpression {
     let is_missing = |value: &QueryValue| matches!(value.wanted, WantedValue::Missing(_));
     match value {
