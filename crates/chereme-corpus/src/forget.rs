@@ -73,7 +73,7 @@ impl Corpus {
             .collect();
         let names = recording_names(connection, &recordings)?;
         // Everything is checked before anything is written, since this cannot be undone.
-        refuse_what_is_needed(connection, &row.name, &recordings)?;
+        refuse_what_is_needed(connection, &row.name, &recordings, progress)?;
         self.refuse_studies_of(&recordings)?;
         let older_files = stored_erase::older_versions(self.corpus_file_path());
         let mut forgotten = ForgottenSigner {
@@ -140,7 +140,12 @@ impl Corpus {
 }
 
 /// Fails if something that stays needs the recordings, or the name.
-fn refuse_what_is_needed(connection: &Connection, signer: &str, recordings: &BTreeSet<i64>) -> CorpusResult<()> {
+fn refuse_what_is_needed(
+    connection: &Connection,
+    signer: &str,
+    recordings: &BTreeSet<i64>,
+    progress: &mut ProgressReceiver<'_>,
+) -> CorpusResult<()> {
     let permissions = PublishPermissions::read_publish_permissions(connection, None)?;
     let mut made = BTreeSet::new();
     for recording in permissions.all_recordings() {
@@ -148,13 +153,16 @@ fn refuse_what_is_needed(connection: &Connection, signer: &str, recordings: &BTr
             made.insert(recording);
         }
     }
+    // Once the signs are deleted, nobody would know the recordings that show them.
+    let copies = permissions.find_recordings_of_signs(connection, &made, progress)?;
+    made.extend(copies.iter().map(|copy| copy.piece));
     refuse(
         &recording_names(connection, &made)?,
         "signs of others were made from the recordings",
         ErrorRemedy::command_remedy("delete them first: `chereme delete CORPUS recording:NAME`"),
     )?;
     refuse(
-        &find_same_movement_of_others(connection, recordings)?,
+        &find_same_movement_of_others(connection, recordings, progress)?,
         "recordings of others show the same movement",
         ErrorRemedy::command_remedy(
             "give them this signer, or delete them first: `chereme delete CORPUS recording:NAME`",
@@ -193,15 +201,21 @@ fn refuse_what_is_needed(connection: &Connection, signer: &str, recordings: &BTr
 
 /// Returns the other recordings that hold the movement of these, whole or in part, or came from the same captured files, each
 /// with its signer: while they stay, the movement is not gone.
-fn find_same_movement_of_others(connection: &Connection, recordings: &BTreeSet<i64>) -> CorpusResult<Vec<String>> {
+fn find_same_movement_of_others(
+    connection: &Connection,
+    recordings: &BTreeSet<i64>,
+    progress: &mut ProgressReceiver<'_>,
+) -> CorpusResult<Vec<String>> {
     let rows = stored_recordings::load_recording_rows(connection)?;
     let others = rows
         .iter()
         .map(|row| row.id)
         .filter(|id| !recordings.contains(id))
         .collect();
-    let mut found = consent::find_movement_pieces(connection, recordings, &others)?;
-    found.extend(consent::find_movement_pieces(connection, &others, recordings)?);
+    let mut found = consent::find_movement_pieces(connection, recordings, &others, progress)?;
+    found.extend(consent::find_movement_pieces(
+        connection, &others, recordings, progress,
+    )?);
     let mut holders: BTreeSet<i64> = found.iter().flat_map(|found| [found.piece, found.take]).collect();
     for &recording in recordings {
         let files = stored_recordings::source_files(connection, recording)?;

@@ -7,12 +7,14 @@ use chereme_sign::{ErrorRemedy, RemedyChoice};
 use rusqlite::Connection;
 use serde::Serialize;
 
-use super::{ConsentAudience, ConsentKind, PersonConsent, consent_row, kept_movement, unnamed};
+use super::kept_movement::{self, MovementPiece};
+use super::{ConsentAudience, ConsentKind, PersonConsent, consent_row, unnamed};
 use crate::RecordOrigin;
 use crate::db::stored_recordings::RecordingRow;
 use crate::db::{consents, lexicons, stored_recordings};
-use crate::error::CorpusResult;
+use crate::error::{CorpusError, CorpusResult};
 use crate::merge;
+use crate::progress::ProgressReceiver;
 use crate::starter::OWN_BODY;
 
 /// A reason why something may not be published.
@@ -80,6 +82,8 @@ pub(crate) struct PublishPermissions {
     /// The sources whose movement a generated recording shows unchanged, where movement and derived signs may be seen
     /// by different people.
     kept_sources: BTreeMap<i64, BTreeSet<i64>>,
+    /// The signs made here that a recording shows, which came back from a file and knows no recipe.
+    shown_signs: BTreeMap<i64, BTreeSet<i64>>,
     /// Recordings in which a person moves or a signer is named.
     personal: BTreeSet<i64>,
     /// Terms of what has none of its own and shows nobody.
@@ -143,6 +147,7 @@ impl PublishPermissions {
             stated: BTreeMap::new(),
             inputs,
             kept_sources: BTreeMap::new(),
+            shown_signs: BTreeMap::new(),
             personal: BTreeSet::new(),
             lexicon_terms: lexicons::load_lexicon_rows(connection)?
                 .into_iter()
@@ -188,6 +193,7 @@ impl PublishPermissions {
         permissions.join_equal_movement(connection)?;
         permissions.join_pieces_of_takes(connection)?;
         permissions.find_kept_movement(connection)?;
+        permissions.find_shown_signs(connection)?;
         Ok(permissions)
     }
 
@@ -225,7 +231,9 @@ impl PublishPermissions {
             ids.filter(|id| kinds.iter().any(|kind| self.may_be_seen(*id, *kind).is_ok() == is_seen))
                 .collect::<BTreeSet<i64>>()
         });
-        for found in kept_movement::find_movement_pieces(connection, &seen, &withheld)? {
+        for found in
+            kept_movement::find_movement_pieces(connection, &seen, &withheld, &mut ProgressReceiver::silent_progress())?
+        {
             for kind in kinds {
                 let of_take = self.stated_audience(found.take, kind);
                 if let Some(stated) = self.stated.get_mut(&found.piece) {
@@ -259,11 +267,51 @@ impl PublishPermissions {
         Ok(())
     }
 
+    /// Finds the recordings that show a sign which was made here and is withheld.
+    fn find_shown_signs(&mut self, connection: &Connection) -> CorpusResult<()> {
+        let is_withheld = |id: &i64| self.contributed_terms(*id, ConsentKind::Movement).is_err();
+        let signs = self.signs_and_recorded().0.into_iter().filter(is_withheld).collect();
+        for shown in self.find_recordings_of_signs(connection, &signs, &mut ProgressReceiver::silent_progress())? {
+            let kept_by_sign = self.kept_sources.get(&shown.take).cloned().unwrap_or_default();
+            self.kept_sources.entry(shown.piece).or_default().extend(kept_by_sign);
+            self.shown_signs.entry(shown.piece).or_default().insert(shown.take);
+        }
+        Ok(())
+    }
+
+    /// Returns the recordings that show these signs, which were exported and imported again: they know no recipe.
+    pub(crate) fn find_recordings_of_signs(
+        &self,
+        connection: &Connection,
+        signs: &BTreeSet<i64>,
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<Vec<MovementPiece>> {
+        let recorded = self.signs_and_recorded().1;
+        let mut found = kept_movement::find_movement_pieces(connection, &recorded, signs, progress)?;
+        let shows_source = |shown: &MovementPiece| {
+            let (piece, sources) = (BTreeSet::from([shown.piece]), self.source_recordings(shown.take));
+            // A sign that keeps the movement of a source says nothing of those who show that movement themselves.
+            let is_of_source = kept_movement::find_movement_pieces(connection, &piece, &sources, progress)?;
+            Ok::<_, CorpusError>(sources.contains(&shown.piece) || !is_of_source.is_empty())
+        };
+        let of_sources: Vec<bool> = found.iter().map(shows_source).collect::<Result<_, _>>()?;
+        let mut of_sources = of_sources.iter();
+        found.retain(|_| of_sources.next() == Some(&false));
+        Ok(found)
+    }
+
+    /// Returns the recordings that were made here, and all others.
+    fn signs_and_recorded(&self) -> (BTreeSet<i64>, BTreeSet<i64>) {
+        let is_made = |id: &i64| self.recordings[id].origin == RecordOrigin::Made;
+        self.recordings.keys().partition(|id| is_made(id))
+    }
+
     /// Returns the recordings that a generated one was made from, over recipes of recipes.
     pub(crate) fn source_recordings(&self, recording: i64) -> BTreeSet<i64> {
         let (mut sources, mut waiting) = (BTreeSet::new(), vec![recording]);
         while let Some(next) = waiting.pop() {
-            for &input in self.inputs.get(&next).into_iter().flatten().flatten() {
+            let inputs = self.inputs.get(&next).into_iter().flatten().flatten();
+            for &input in inputs.chain(self.shown_signs.get(&next).into_iter().flatten()) {
                 // Recipes may share a source, which is then followed only once.
                 if sources.insert(input) {
                     waiting.push(input);
@@ -350,6 +398,14 @@ impl PublishPermissions {
             if contributor != recording && licence.is_some_and(forbids_derivatives) {
                 return Err(withheld(WithheldReason::NoDerivatives));
             }
+            // Whoever annotated a file that shows a sign wrote something of their own.
+            let signs = self.shown_signs.get(&contributor).into_iter().flatten();
+            let signs = signs.filter(|_| contributor != recording || asked != ConsentKind::Annotation);
+            waiting.extend(
+                signs
+                    .map(|sign| (*sign, ConsentKind::Derived))
+                    .filter(|next| seen.insert(*next)),
+            );
             for &input in inputs.into_iter().flatten() {
                 // What annotators wrote is taken over, and so is movement that stays as it is.
                 let is_shown = match asked {

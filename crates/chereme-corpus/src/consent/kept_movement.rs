@@ -11,6 +11,7 @@ use rusqlite::Connection;
 use crate::db::{consents, stored_recordings};
 use crate::error::CorpusResult;
 use crate::movement::{ChannelGroup, MotionTrack};
+use crate::progress::ProgressReceiver;
 
 /// The channels that carry movement.
 const ARM_GROUPS: [ChannelGroup; 2] = [ChannelGroup::RightArm, ChannelGroup::LeftArm];
@@ -147,6 +148,7 @@ pub(crate) fn find_movement_pieces(
     connection: &Connection,
     pieces: &BTreeSet<i64>,
     takes: &BTreeSet<i64>,
+    progress: &mut ProgressReceiver<'_>,
 ) -> CorpusResult<Vec<MovementPiece>> {
     let mut moving_pieces = Vec::new();
     for &piece in pieces.iter().filter(|_| !takes.is_empty()) {
@@ -157,7 +159,8 @@ pub(crate) fn find_movement_pieces(
     }
     let longest = moving_pieces.iter().map(|(arms, ..)| arms.telling_frame_count()).max();
     let mut found = Vec::new();
-    for &take in takes.iter().filter(|_| longest.is_some()) {
+    for (done, &take) in takes.iter().enumerate().filter(|_| longest.is_some()) {
+        progress.report_items("comparing movement", done, takes.len())?;
         let Some(body) = BodyArms::open_body_arms(connection, take)? else {
             continue;
         };

@@ -8,10 +8,15 @@ use super::{FileReport, FileStatus};
 use crate::consent;
 use crate::db::stored_recordings::{self, RecordingRow};
 use crate::error::CorpusResult;
+use crate::progress::ProgressReceiver;
 use crate::report_finding::ReportFinding;
 
 /// Adds to the reports of new captures whose movement theirs is.
-pub(super) fn report_known_movement_pieces(connection: &Connection, files: &mut [FileReport]) -> CorpusResult<()> {
+pub(super) fn report_known_movement_pieces(
+    connection: &Connection,
+    files: &mut [FileReport],
+    progress: &mut ProgressReceiver<'_>,
+) -> CorpusResult<()> {
     let rows = stored_recordings::load_recording_rows(connection)?;
     let is_capture = |file: &FileReport| file.status == FileStatus::Imported && file.understood.movement.is_some();
     let new = files.iter().enumerate().filter(|(_, file)| is_capture(file));
@@ -23,7 +28,7 @@ pub(super) fn report_known_movement_pieces(connection: &Connection, files: &mut 
         .collect();
     let takes = rows.iter().map(|row| row.id).collect();
     let pieces = new.keys().copied().collect();
-    for found in consent::find_movement_pieces(connection, &pieces, &takes)? {
+    for found in consent::find_movement_pieces(connection, &pieces, &takes, progress)? {
         let Some(take) = rows.iter().find(|row| row.id == found.take) else {
             continue;
         };

@@ -445,7 +445,7 @@ impl ImportRun<'_> {
             let shown = report.files.iter_mut().filter(|file| file.path == stands);
             shown.for_each(|file| "-".clone_into(&mut file.path));
         }
-        import_pieces::report_known_movement_pieces(connection, &mut report.files)?;
+        import_pieces::report_known_movement_pieces(connection, &mut report.files, progress)?;
         report.joined = import_joining::joined_recordings(&report.files);
         report.complete = true;
         Ok(())

@@ -109,6 +109,58 @@ fn bytes_that_are_equal_are_one_movement() {
 }
 
 #[test]
+fn a_sign_that_comes_back_from_a_file_has_the_consents_of_those_it_was_made_from() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = copies(folder.path());
+    corpus
+        .recombine_recipe("ESCARGOT | mirror", "TURNED")
+        .expect("generated");
+    let mut hear = ignore_progress_step;
+    let progress = &mut ProgressReceiver::new(&mut hear);
+    // A copy that is unchanged shows the movement that was recorded; the mirrored one only the sign.
+    for (sign, name) in [("TURNED", "back"), ("escargot", "taken")] {
+        let file = folder.path().join(format!("{name}.bvh"));
+        let what = ExportWhat::Address(address(&format!("recording:{sign}")));
+        corpus
+            .export_corpus(&what, &file, &ExportOptions::default(), progress)
+            .expect("exported");
+        corpus
+            .import_paths(&[file], &ImportOptions::default(), progress)
+            .expect("imported");
+        let change = RecordingChange {
+            signer: Some(Some("Cleo".into())),
+            ..RecordingChange::default()
+        };
+        corpus
+            .change_recording(&RowName::Text(name.into()), &change)
+            .expect("changed");
+    }
+    let yes = ConsentChange {
+        licence: Some("CC BY 4.0".into()),
+        ..all(ConsentAudience::Public)
+    };
+    refuse(&mut corpus, "signer:Cleo", &yes);
+    let terms = |corpus: &Corpus, name: &str| {
+        let connection = corpus.store.read_connection();
+        let permissions = PublishPermissions::read_publish_permissions(connection, None).expect("read");
+        let found = stored_recordings::recording_named(connection, name).expect("read");
+        permissions.recording_publish_terms(found.expect("there").id, ConsentKind::Movement)
+    };
+    assert!(terms(&corpus, "back").is_ok() && terms(&corpus, "taken").is_ok());
+    let no_signs = ConsentChange {
+        derived: Some(Some(ConsentAudience::Nobody)),
+        ..ConsentChange::default()
+    };
+    refuse(&mut corpus, "signer:Ada", &no_signs);
+    assert_eq!(terms(&corpus, "back"), Err(WithheldReason::NotPublic));
+    assert!(terms(&corpus, "taken").is_ok(), "Ada lets others see what was recorded");
+    // While the copy stays, the signer is not forgotten, and the copy is named.
+    let refusal = corpus.forget_signer(&RowName::Text("Ada".into()), true, progress);
+    let refusal = refusal.expect_err("needed").to_string();
+    assert!(refusal.contains("back"), "{refusal}");
+}
+
+#[test]
 fn terms_are_those_of_all_contributors_and_are_never_stamped_over_them() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut corpus = copies(folder.path());
