@@ -214,8 +214,8 @@ pub(super) fn sources_kept_by(
     Ok(kept_sources)
 }
 
-/// Reports whether the arms do in successive frames what those of the source do, and move meanwhile. Fingers, face and
-/// the way somebody stands may be others: the movement, by which people are recognised, is the same.
+/// Reports whether the arms do what those of the source do, in its order and at any tempo, and move meanwhile. Fingers, face
+/// and the way somebody stands may be others: the movement, by which people are recognised, is the same.
 fn is_movement_kept(generated: &ArmRotations, source: &ArmRotations, enough: usize) -> bool {
     let pairs = generated
         .iter()
@@ -225,24 +225,50 @@ fn is_movement_kept(generated: &ArmRotations, source: &ArmRotations, enough: usi
         return false;
     };
     // Few common joints could be alike by chance.
-    if pairs.len() * 2 < generated.len() {
+    if pairs.len() * 2 < generated.len() || count == 0 {
         return false;
     }
-    let enough = enough.min(count).max(2);
-    // How many frames up to one of the source follow each other in both.
-    let mut runs = vec![0; count + 1];
+    let enough = enough.min(count).max(2) - 1;
+    // Other rates and tempos show the arms between the frames of the source.
+    let fine: Vec<Vec<DQuat>> = pairs.iter().map(|(_, other)| refine_rotations(other)).collect();
+    let steps = (count - 1) * STEPS_PER_FRAME + 1;
+    // For each step of the source, the first step of the movement that leads to it in the former frame.
+    let (mut before, mut now) = (vec![None; steps], vec![None; steps]);
     for frame in 0..own_count {
-        // Going backwards, the runs of the former frame are still there to be continued.
-        for of_source in (0..count).rev() {
-            let is_same = (pairs.iter()).all(|(own, other)| is_same_rotation((&own[frame], &other[of_source])));
-            let run = if is_same { runs[of_source] + 1 } else { 0 };
-            runs[of_source + 1] = run;
+        for step in 0..steps {
+            let is_near = || (pairs.iter().zip(&fine)).all(|((own, _), fine)| is_near_rotation(own[frame], fine[step]));
+            now[step] = is_near().then(|| {
+                let earlier = before[step.saturating_sub(MAX_STEPS_AT_ONCE)..=step].iter().flatten();
+                earlier.min().copied().unwrap_or(step)
+            });
             // At rest, the arms of all people are alike.
-            let moves = || (pairs.iter()).any(|(_, other)| moves_between(other, of_source + 1 - enough, of_source));
-            if run >= enough && moves() {
+            let moves = |first: usize| fine.iter().any(|one| one[first].dot(one[step]).abs() < SHOWING_COSINE);
+            if now[step].is_some_and(|first: usize| step - first >= enough * STEPS_PER_FRAME && moves(first)) {
                 return true;
             }
         }
+        std::mem::swap(&mut before, &mut now);
     }
     false
+}
+
+/// How many steps a frame of a source is parted into.
+const STEPS_PER_FRAME: usize = 4;
+/// By how many steps a generated movement may go on from one frame to the next: it is up to four times as fast.
+const MAX_STEPS_AT_ONCE: usize = 4 * STEPS_PER_FRAME;
+/// The least cosine of half the angle between rotations that look the same, which is three degrees.
+const NEAR_ROTATION_COSINE: f64 = 1.0 - 3.43e-4;
+/// The cosine of half an angle of twelve degrees: arms that turn more than that show a movement.
+const SHOWING_COSINE: f64 = 1.0 - 5.48e-3;
+
+fn is_near_rotation(one: DQuat, two: DQuat) -> bool {
+    one.dot(two).abs() >= NEAR_ROTATION_COSINE
+}
+
+/// Returns rotations with those between them.
+fn refine_rotations(rotations: &[DQuat]) -> Vec<DQuat> {
+    let steps = (0..STEPS_PER_FRAME).map(|step| step as f64 / STEPS_PER_FRAME as f64);
+    let pairs = rotations.windows(2).map(|pair| [pair[0], pair[1]]);
+    let between = pairs.flat_map(|[from, to]| steps.clone().map(move |share| from.slerp(to, share)));
+    between.chain(rotations.last().copied()).collect()
 }
