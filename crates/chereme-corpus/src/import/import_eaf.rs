@@ -1,5 +1,6 @@
 //! Imports tiers, annotations and vocabularies from ELAN's annotation files into a recording.
 
+mod annotators;
 mod eaf_target;
 mod eaf_vocabulary;
 mod remap;
@@ -99,6 +100,17 @@ pub(super) fn import_as(
     };
     report.recording = Some(stored_recordings::load_recording_row(job.connection, recording)?.name);
     let mut base = target.read_earlier_transcript(job, read)?;
+    let is_version_of_file = target
+        .base
+        .as_ref()
+        .is_some_and(|base| base.path.as_ref() == Some(&job.place));
+    let own_base = base.as_mut().filter(|_| is_version_of_file);
+    let apart = annotators::keep_annotators_apart(job, recording, &mut transcript, own_base, &guesses)?;
+    if !apart.is_empty() {
+        // The file of another annotator takes nothing away.
+        base = None;
+        report.findings.extend(apart);
+    }
     let renames = match &mut base {
         Some(base) => renames::take_names(job, recording, base, &transcript)?,
         None => Vec::new(),
