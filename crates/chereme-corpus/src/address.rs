@@ -10,6 +10,7 @@ use chereme_sign::text::{fold_text, nearest_candidate};
 use chereme_sign::{ErrorRemedy, RemedyChoice};
 use rusqlite::Connection;
 
+use crate::db::edits;
 use crate::db::lexicons::{self, LexiconRow};
 use crate::db::notations;
 use crate::db::signs::{self, SignByLexicon, TokenRow};
@@ -158,6 +159,24 @@ pub(crate) fn find_addressed_token(connection: &Connection, address: &CorpusAddr
         other => Err(CorpusError::from_wrong_message(format!("{other} is no token"))
             .with_error_place(other.to_string())
             .with_advice("write token:41 or a gloss")),
+    }
+}
+
+/// Returns the sign with this number, or with this gloss.
+pub(crate) fn find_sign_by_name(connection: &Connection, name: &RowName) -> CorpusResult<i64> {
+    let id = match name {
+        RowName::Text(gloss) => return find_sign_by_gloss(connection, gloss),
+        RowName::Number(id) => *id,
+    };
+    match edits::sign_gloss_and_notes(connection, id) {
+        Ok(_) => Ok(id),
+        // Any other failure says nothing about whether the sign exists.
+        Err(CorpusError::Database(rusqlite::Error::QueryReturnedNoRows)) => {
+            Err(CorpusError::from_wrong_message(format!("there is no sign:{id}"))
+                .with_error_place(format!("sign:{id}"))
+                .with_command_advice("`chereme list CORPUS signs` lists them"))
+        }
+        Err(other) => Err(other),
     }
 }
 

@@ -17,7 +17,6 @@ use crate::db::stored_check::run_and_roll_back;
 use crate::db::stored_delete::{self as rows, RecordingBelongings};
 use crate::db::stored_recordings;
 use crate::db::stored_tiers;
-use crate::edit::sign_there;
 use crate::error::{CorpusError, CorpusResult};
 use crate::progress::ProgressReceiver;
 use crate::words;
@@ -155,7 +154,7 @@ impl DeletionPlan {
                         .insert(address::find_recording_by_name(connection, name)?.id);
                 }
                 CorpusAddress::Sign(name) => {
-                    plan.signs.insert(find_deleted_sign(connection, name)?);
+                    plan.signs.insert(address::find_sign_by_name(connection, name)?);
                 }
                 CorpusAddress::Gloss(name) => {
                     plan.recordings.insert(bare_recording(connection, name)?);
@@ -338,7 +337,7 @@ impl DeletionPlan {
             rows::cite_another(connection, sign)?;
             signs::delete_empty_sign(connection, sign)?;
             // A sign with a translation or a remark stays although it has no token.
-            if sign_there(connection, sign).is_err() {
+            if address::find_sign_by_name(connection, &RowName::Number(sign)).is_err() {
                 done.signs.push(gloss);
             }
         }
@@ -376,13 +375,6 @@ fn token_place_text(token: &TokenRow) -> String {
     let start = RecordingInstant::from_micros(token.start_us.unwrap_or_default());
     let recording = token.recording.as_deref().unwrap_or_default();
     format!("{recording:?} at {start}")
-}
-
-fn find_deleted_sign(connection: &Connection, name: &RowName) -> CorpusResult<i64> {
-    match name {
-        RowName::Text(gloss) => address::find_sign_by_gloss(connection, gloss),
-        RowName::Number(id) => sign_there(connection, *id),
-    }
 }
 
 /// Returns the recording with a bare name. A sign must be named as one: it takes all its tokens with it.

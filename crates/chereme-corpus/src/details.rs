@@ -10,6 +10,7 @@ use crate::address::{self, CorpusAddress, RowName};
 use crate::consent::{self, PersonConsent};
 use crate::db::lexicons;
 use crate::db::people::{self, PersonContents};
+use crate::db::sign_relations::{self, SignRelation};
 use crate::db::signs::{self, TokenRow};
 use crate::db::stored_columns::{OpinionStanding, ValueState, phase_name};
 use crate::db::stored_recordings::{self, RecordingRow};
@@ -17,7 +18,7 @@ use crate::db::stored_search::begin_reading;
 use crate::db::stored_search::search_answers::{self, AnnotationOpinion};
 use crate::db::stored_tracks::{self, TrackRow};
 use crate::db::{edits, notations, recipes};
-use crate::error::{CorpusError, CorpusResult};
+use crate::error::CorpusResult;
 use crate::hands;
 use crate::inventories::ValueName;
 use crate::media::MediaPlace;
@@ -145,6 +146,8 @@ pub struct SignDetails {
     pub notes: Option<String>,
     /// Translations, as language and text.
     pub texts: Vec<(String, String)>,
+    /// Its relations to other signs.
+    pub relations: Vec<SignRelation>,
     /// Its tokens; [`TokenRow::citation`] marks the citation form.
     pub tokens: Vec<TokenRow>,
 }
@@ -304,19 +307,16 @@ impl Corpus {
     /// Fails if there is no such sign, or the database fails.
     pub fn sign_details(&self, sign: &RowName) -> CorpusResult<SignDetails> {
         let reading = begin_reading(self.store.read_connection())?;
-        let id = match sign {
-            RowName::Number(id) => *id,
-            RowName::Text(gloss) => address::find_sign_by_gloss(&reading, gloss)?,
-        };
+        let id = address::find_sign_by_name(&reading, sign)?;
         let tokens = signs::tokens_of_sign(&reading, id)?;
-        let (_, notes) = edits::sign_gloss_and_notes(&reading, id)
-            .map_err(|_| CorpusError::from_wrong_message(format!("there is no sign:{id}")))?;
+        let (_, notes) = edits::sign_gloss_and_notes(&reading, id)?;
         Ok(SignDetails {
             id,
             gloss: signs::sign_label(&reading, id)?,
             lexicon: lexicons::lexicon_name_of_sign(&reading, id)?,
             notes,
             texts: signs::list_sign_translations(&reading, id)?,
+            relations: sign_relations::load_sign_relations(&reading, Some(id))?,
             tokens,
         })
     }

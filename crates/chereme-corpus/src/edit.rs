@@ -143,10 +143,7 @@ impl Corpus {
     /// Fails if the sign or a translation to remove does not exist, or the gloss is another sign's.
     pub fn change_sign(&mut self, sign: &RowName, change: &SignChange) -> CorpusResult<String> {
         self.store.run_store_operation(|connection| {
-            let id = match sign {
-                RowName::Number(id) => sign_there(connection, *id)?,
-                RowName::Text(gloss) => address::find_sign_by_gloss(connection, gloss)?,
-            };
+            let id = address::find_sign_by_name(connection, sign)?;
             let old = signs::sign_label(connection, id)?;
             let (_, mut notes) = edits::sign_gloss_and_notes(connection, id)?;
             let gloss = match &change.gloss {
@@ -208,20 +205,6 @@ fn derive_edited_recordings(connection: &Connection, recordings: &[i64]) -> Corp
         tokens::update_recording_tokens(connection, *recording, None, &inventories)?;
     }
     Ok(())
-}
-
-/// Returns the number of a sign if there is such a sign.
-pub(crate) fn sign_there(connection: &Connection, id: i64) -> CorpusResult<i64> {
-    match edits::sign_gloss_and_notes(connection, id) {
-        Ok(_) => Ok(id),
-        // Any other failure says nothing about whether the sign exists.
-        Err(CorpusError::Database(rusqlite::Error::QueryReturnedNoRows)) => {
-            Err(CorpusError::from_wrong_message(format!("there is no sign:{id}"))
-                .with_error_place(format!("sign:{id}"))
-                .with_command_advice("`chereme list CORPUS signs` lists them"))
-        }
-        Err(other) => Err(other),
-    }
 }
 
 fn require_trimmed_name(text: &str, what: &str) -> CorpusResult<String> {

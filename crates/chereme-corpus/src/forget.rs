@@ -33,6 +33,8 @@ pub struct ForgottenSigner {
     pub recordings: Vec<String>,
     /// Older versions of the file that were removed, or would be.
     pub older_files: Vec<PathBuf>,
+    /// The saved searches that named the person and went, or would go.
+    pub searches: Vec<String>,
     /// How many hashes, identities, names and texts were searched for in the bytes of the file. None of them was found,
     /// except for those in `still_said`.
     pub searched: usize,
@@ -81,6 +83,9 @@ impl Corpus {
             dry_run,
             recordings: names,
             older_files,
+            searches: stored_erase::searches_that_name(self.store.read_connection(), row.id)?
+                .into_iter()
+                .collect(),
             searched: 0,
             still_said: Vec::new(),
         };

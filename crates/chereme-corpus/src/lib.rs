@@ -54,6 +54,7 @@ mod propose;
 mod publish;
 pub mod recipe;
 mod recombine;
+mod relations;
 mod report_finding;
 mod score;
 pub(crate) mod search;
@@ -137,6 +138,7 @@ pub use cued::{
 pub use db::file_identity::FileIdentity;
 pub use db::lexicons::{LexiconContents, LexiconRow};
 pub use db::people::{PersonAttribute, PersonContents};
+pub use db::sign_relations::SignRelation;
 pub use db::signs::TokenRow;
 pub use db::stored_columns::{AnnotationOrigin, RecordOrigin, ValueState};
 pub use db::stored_delete::RecordingBelongings;
@@ -193,6 +195,7 @@ pub use propose::{
 };
 pub use publish::{LeftOutPart, LeftOutSigns, PublishOptions, PublishedDictionary};
 pub use recombine::{MadePart, NotationFinding, RecombinationResult, TimedNote};
+pub use relations::RelationChange;
 pub use report_finding::ReportFinding;
 pub use score::MovementScore;
 pub use search::saved_search::kept_like;

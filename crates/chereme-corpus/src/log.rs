@@ -15,7 +15,7 @@ use crate::words::InterfaceLanguage;
 use crate::words::history_words::described_value;
 
 /// The tables that the user knows, each with the noun for a row and the column with its name.
-const LOGGED_TABLE_NOUNS: [(&str, &str, &str); 16] = [
+const LOGGED_TABLE_NOUNS: [(&str, &str, &str); 17] = [
     ("annotation", "annotation", "value"),
     ("tier", "tier", "name"),
     ("recording", "recording", "name"),
@@ -25,6 +25,7 @@ const LOGGED_TABLE_NOUNS: [(&str, &str, &str); 16] = [
     ("lexicon", "lexicon", "name"),
     ("sign", "sign", "gloss"),
     ("sign_text", "translation", "text"),
+    ("sign_relation", "relation", "kind"),
     ("inventory", "inventory", "key"),
     ("inventory_value", "value", "key"),
     ("kept_search", "search", "name"),
@@ -255,7 +256,7 @@ fn describe_changed_row(
                 .map_or_else(Vec::new, |(tier, recording)| vec![tier, recording])
         }
         "tier" | "recipe" => Vec::from_iter(named("recording", number("recording_id"))?),
-        "sign_text" => Vec::from_iter(named("sign", number("sign_id"))?),
+        "sign_text" | "sign_relation" => Vec::from_iter(named("sign", number("sign_id"))?),
         "inventory_value" => Vec::from_iter(named("inventory", number("inventory_id"))?),
         _ => Vec::new(),
     };

@@ -8,7 +8,7 @@ use sha2::{Digest, Sha256};
 
 use crate::Corpus;
 use crate::error::{CorpusError, CorpusResult};
-use crate::forms::{EmptyCellTreatment, FormSource, SignForm, SignForms, named_fields, number_form_cells};
+use crate::forms::{EmptyCellTreatment, FormField, FormSource, SignForm, SignForms, named_fields, number_form_cells};
 use crate::lexicon::LexiconScope;
 use crate::progress::ProgressReceiver;
 
@@ -102,10 +102,18 @@ impl Corpus {
         options: &PairOptions,
         progress: &mut ProgressReceiver<'_>,
     ) -> CorpusResult<MinimalPairs> {
+        find_minimal_pairs(self.load_pair_forms(options, progress)?, options.empty)
+    }
+
+    /// Returns the forms that are compared.
+    pub(crate) fn load_pair_forms(
+        &mut self,
+        options: &PairOptions,
+        progress: &mut ProgressReceiver<'_>,
+    ) -> CorpusResult<SignForms> {
         let selection = self.select_forms(options.query.as_deref(), progress)?;
         let fields = named_fields(&options.fields);
-        let forms = self.load_sign_forms(&fields, &selection, &options.scope, progress)?;
-        find_minimal_pairs(forms, options.empty)
+        self.load_sign_forms(&fields, &selection, &options.scope, progress)
     }
 }
 
@@ -119,6 +127,58 @@ pub(crate) fn of_codings(codings: &[(String, BTreeMap<String, String>)]) -> Opti
     // The only failure is that there are too many.
     let forms = SignForms::forms_from_codings(&coded, fields, FormSource::Citations);
     find_minimal_pairs(forms, EmptyCellTreatment::Value).ok()
+}
+
+/// Two forms that are equal, or differ in the handshape of the dominant hand alone.
+pub(crate) struct FormsAlike {
+    /// The tokens with these forms.
+    pub(crate) tokens: [i64; 2],
+    pub(crate) differs_in_handshape: bool,
+}
+
+/// How many fields two forms must have in common before their form decides that they are related.
+const DECIDING_FIELD_COUNT: usize = 3;
+
+/// Returns the pairs of forms that are equal, or differ in the handshape of the dominant hand alone.
+///
+/// # Errors
+/// Fails if there are too many to list.
+pub(crate) fn find_forms_alike(table: &SignForms) -> CorpusResult<Vec<FormsAlike>> {
+    let (cells, _) = number_form_cells(&table.rows);
+    let is_handshape = |field: &FormField| field.coding.as_deref() == Some("dominant.configuration");
+    let handshape = table.fields.iter().position(is_handshape);
+    let mut alike = Vec::new();
+    for without in [None, handshape].into_iter().take(1 + usize::from(handshape.is_some())) {
+        for group in group_equal_rows(&cells, without).values() {
+            // Signs of which little is coded would all be related. The empty cell has the number 0.
+            let coded = cells[group[0]].iter();
+            let common = coded.filter(|cell| **cell != 0).count();
+            for (at, one) in group.iter().enumerate().filter(|_| common >= DECIDING_FIELD_COUNT) {
+                for other in &group[at + 1..] {
+                    let shapes = without.map(|field| [cells[*one][field], cells[*other][field]]);
+                    let differs = shapes.is_some_and(|[own, its]| own != its && own != 0 && its != 0);
+                    let tokens = [table.rows[*one].token, table.rows[*other].token];
+                    if let [Some(one), Some(other)] = tokens
+                        && differs == without.is_some()
+                    {
+                        alike.push(FormsAlike {
+                            tokens: [one, other],
+                            differs_in_handshape: differs,
+                        });
+                    }
+                }
+                if alike.len() > MAX_LISTED_PAIRS {
+                    return Err(too_many_pairs_error());
+                }
+            }
+        }
+    }
+    Ok(alike)
+}
+
+fn too_many_pairs_error() -> CorpusError {
+    let text = format!("there are more than {MAX_LISTED_PAIRS} pairs");
+    CorpusError::from_wrong_message(text).with_advice("compare more fields")
 }
 
 fn find_minimal_pairs(mut table: SignForms, empty: EmptyCellTreatment) -> CorpusResult<MinimalPairs> {
@@ -150,8 +210,7 @@ fn find_minimal_pairs(mut table: SignForms, empty: EmptyCellTreatment) -> Corpus
                 // The limit is tested while pairs are found, since their number can grow with the square of
                 // the signs.
                 if found_pairs.len() > MAX_LISTED_PAIRS {
-                    let text = format!("there are more than {MAX_LISTED_PAIRS} pairs");
-                    return Err(CorpusError::from_wrong_message(text).with_advice("compare more fields"));
+                    return Err(too_many_pairs_error());
                 }
             }
         }

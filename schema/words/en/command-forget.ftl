@@ -4,7 +4,7 @@ message-command-forget-no-signer = { $who } is no signer
 message-command-forget-write-signer-name = write signer:NAME; recordings and signs go with `chereme delete`
 message-command-forget-nothing-written-yet = nothing is written yet; with --yes { $signer } goes for good, with { $n } and the history:
 message-command-forget-forgotten-for-good = forgotten for good: { $signer }, { $n } and the history:
-message-command-forget-proof = proof: { $n } hashes, identities, names and texts were searched for in the bytes of the file, and none was found
+message-command-forget-proof = proof: { $n } hashes, identities, names and texts were searched for in the bytes of the file, and none was found outside of rows of others
 message-command-forget-rows-of-others-say = rows of others say this, too: { $text } (table { $name })
 message-command-forget-files-not-touched = films beside the corpus, copies, exports and publications are not touched: delete them yourself
 

@@ -2,6 +2,7 @@
 
 line-command-lexicon-linked-otherwise = linked otherwise than before: { $n }
 line-command-lexicon-removed = lexicon removed: { $name }
+line-command-lexicon-relations-changed = relations that changed: { $n }
 message-command-lexicon-nothing-changed = nothing is to be changed
 message-command-lexicon-add-option = add --name, --language, --release, --terms, --citation or --notes
 message-command-lexicon-no-lexicon = the corpus has no lexicon: import a table or notation with --lexicon NAME
@@ -37,9 +38,23 @@ help-command-lexicon-unite = Make lexicons one: entries, recordings and files be
 help-command-lexicon-same-entries = Entries are the same if their rows have the same id, otherwise by gloss and number. Both codings are kept, as two forms of one entry, and entries that differ are named. Lexicons that differ in language, version, terms or citation are refused.
 help-command-lexicon-that-go = The lexicons that go
 help-command-lexicon-that-stays = The lexicon that stays
+help-command-lexicon-relate = Say how a sign is related to others: variants, synonyms, the parts of a compound in order
+help-command-lexicon-relate-both-ends = A relation is read from both ends: if BOOKSHOP is compound-of BOOK SHOP, BOOK is part-of BOOKSHOP. Queries know related.variant=BOOK and related.part-of=*. Tables bring relations in columns such as "variants", "relations to other signs" (variant:BANK, seealso:SHORE) and "sequential morphology" (HOUSE + ROOF).
+help-command-lexicon-unrelate = Take relations of a sign to others away
+help-command-lexicon-relations = List the relations of a sign or of all signs, or those that the form of signs decides
+help-command-lexicon-relation-sign = The sign, as a gloss or sign:LEXICON/GLOSS
+help-command-lexicon-relation-name = The relation: variant, homonym, synonym, antonym, paradigm, see-also, compound-of, part-of, derived-from, source-of, hyponym-of, hypernym-of
+help-command-lexicon-relation-others = The other signs
+help-command-lexicon-relations-of-sign = The sign; without it those of all signs
+help-command-lexicon-relations-by-form = List the relations that the form decides and nobody stated: homonyms are equal in all fields, the signs of a paradigm in all but the handshape
+help-command-lexicon-relations-store = Store them
+help-command-lexicon-relations-fields = The fields that count as form, as in `chereme pairs`
 
 ## Titles of columns.
 
 title-command-lexicon-version = version
 title-command-lexicon-terms = terms
 title-command-lexicon-files = files
+title-command-lexicon-relation = relation
+title-command-lexicon-other-sign = other sign
+title-command-lexicon-source = source

@@ -35,6 +35,7 @@ guide-guides-attributes-sign-from-lexicon-table = Attributes of the sign, from a
 guide-guides-curves-face-head-during-token-1 = Curves of face and head during the token (1 is the usual reach, or degrees)
 guide-guides-keys-cued-speech-placement-before-shape = Keys of cued speech, placement before shape
 guide-guides-what-corpus-says-of-signer = what the corpus says of the signer
+guide-guides-relations-to-other-signs = relations to other signs
 guide-guides-milliseconds-from-sound-hand = milliseconds from the sound to the hand
 guide-guides-notation-hamnosys-symbols-names-characters = Notation in HamNoSys, symbols as names or characters
 guide-guides-these-in-this-order-gap = these in this order; … is a gap

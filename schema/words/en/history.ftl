@@ -69,6 +69,7 @@ history-set-citation = Citation form: token:{ $token } for { $gloss }
 history-change-person = Person changed: { $person }
 history-unite-people = { $names } made one person with { $person }
 history-unite-lexicons = Lexicons made one: { $names } in { $lexicon }
+history-relate-signs = Relations of signs ({ $relation }): { $count }
 history-remove-person = Person removed: { $person }
 history-import-people = { $people ->
     [one] one person
@@ -165,6 +166,7 @@ history-summary-only-set-citation = Citation form: { $summary }
 history-summary-only-change-person = Person changed: { $summary }
 history-summary-only-unite-people = People made one: { $summary }
 history-summary-only-unite-lexicons = Lexicons made one: { $summary }
+history-summary-only-relate-signs = Relations of signs: { $summary }
 history-summary-only-remove-person = Person removed: { $summary }
 history-summary-only-import-people = People read from a table: { $summary }
 history-summary-only-change-lexicon = Lexicon changed: { $summary }

@@ -35,6 +35,7 @@ texts-merging-person-alias = other name of a person
 texts-merging-person-attribute = attribute of a person
 texts-merging-lexicon = lexicon
 texts-merging-sign = sign
+texts-merging-sign-relation = relation of signs
 texts-merging-token = token
 texts-merging-notation = notation
 texts-merging-attribute = attribute

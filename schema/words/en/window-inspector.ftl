@@ -45,6 +45,7 @@ window-inspector-made-into = Used in
 window-inspector-open-recipe = Open in Recombine
 window-inspector-recombine = Recombine
 window-inspector-text-new = New translation
+window-inspector-relation-new = New relation, such as compound-of BOOK
 window-inspector-remove = Remove: { $what }
 window-inspector-handedness = Dominant hand
 window-inspector-other-names = Other names

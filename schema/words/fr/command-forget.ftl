@@ -4,7 +4,7 @@ message-command-forget-no-signer = { $who } n’est pas un signeur
 message-command-forget-write-signer-name = écrivez signer:NOM ; les enregistrements et les signes se suppriment avec `chereme delete`
 message-command-forget-nothing-written-yet = rien n’est encore écrit ; avec --yes { $signer } disparaît définitivement, avec { $n } et l’historique :
 message-command-forget-forgotten-for-good = oublié définitivement : { $signer }, { $n } et l’historique :
-message-command-forget-proof = preuve : { $n } empreintes, identités, noms et textes ont été cherchés dans les octets du fichier, et aucun n’a été trouvé
+message-command-forget-proof = preuve : { $n } empreintes, identités, noms et textes ont été cherchés dans les octets du fichier, et aucun n’a été trouvé en dehors des lignes d’autres personnes
 message-command-forget-rows-of-others-say = des lignes d’autres personnes le disent aussi : { $text } (table { $name })
 message-command-forget-files-not-touched = les films à côté du corpus, les copies, les exportations et les publications restent : supprimez-les vous-même
 

@@ -2,6 +2,7 @@
 
 line-command-lexicon-linked-otherwise = liés autrement qu’avant : { $n }
 line-command-lexicon-removed = lexique supprimé : { $name }
+line-command-lexicon-relations-changed = relations changées : { $n }
 message-command-lexicon-nothing-changed = rien n’est à modifier
 message-command-lexicon-add-option = ajoutez --name, --language, --release, --terms, --citation ou --notes
 message-command-lexicon-no-lexicon = le corpus n’a pas de lexique : importez une table ou une notation avec --lexicon NOM
@@ -37,9 +38,23 @@ help-command-lexicon-unite = Réunir des lexiques : entrées, enregistrements et
 help-command-lexicon-same-entries = Deux entrées sont la même si leurs lignes ont le même identifiant, sinon par glose et numéro. Les deux codages sont gardés, comme deux formes d’une entrée, et les entrées qui diffèrent sont nommées. Des lexiques qui diffèrent par la langue, la version, les conditions ou la citation sont refusés.
 help-command-lexicon-that-go = Les lexiques qui disparaissent
 help-command-lexicon-that-stays = Le lexique qui reste
+help-command-lexicon-relate = Dire comment un signe est relié à d’autres : variantes, synonymes, parties d’un composé dans l’ordre
+help-command-lexicon-relate-both-ends = Une relation se lit des deux côtés : si BOOKSHOP est compound-of BOOK SHOP, BOOK est part-of BOOKSHOP. Les requêtes connaissent related.variant=BOOK et related.part-of=*. Les tableaux apportent des relations dans des colonnes telles que « variants », « relations to other signs » (variant:BANK, seealso:SHORE) et « sequential morphology » (HOUSE + ROOF).
+help-command-lexicon-unrelate = Retirer des relations d’un signe avec d’autres
+help-command-lexicon-relations = Lister les relations d’un signe ou de tous les signes, ou celles que la forme des signes décide
+help-command-lexicon-relation-sign = Le signe, comme glose ou sign:LEXIQUE/GLOSE
+help-command-lexicon-relation-name = La relation : variant, homonym, synonym, antonym, paradigm, see-also, compound-of, part-of, derived-from, source-of, hyponym-of, hypernym-of
+help-command-lexicon-relation-others = Les autres signes
+help-command-lexicon-relations-of-sign = Le signe ; sans lui, celles de tous les signes
+help-command-lexicon-relations-by-form = Lister les relations que la forme décide et que personne n’a dites : les homonymes sont égaux dans tous les champs, les signes d’un paradigme dans tous sauf la configuration
+help-command-lexicon-relations-store = Les enregistrer
+help-command-lexicon-relations-fields = Les champs qui comptent comme forme, comme dans `chereme pairs`
 
 ## Titles of columns.
 
 title-command-lexicon-version = version
 title-command-lexicon-terms = conditions
 title-command-lexicon-files = fichiers
+title-command-lexicon-relation = relation
+title-command-lexicon-other-sign = autre signe
+title-command-lexicon-source = source

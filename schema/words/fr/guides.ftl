@@ -35,6 +35,7 @@ guide-guides-attributes-sign-from-lexicon-table = Attributs du signe, d’une ta
 guide-guides-curves-face-head-during-token-1 = Courbes du visage et de la tête pendant l’occurrence (1 est l’ampleur usuelle, ou degrés)
 guide-guides-keys-cued-speech-placement-before-shape = Clés de la LfPC, l’emplacement avant la forme
 guide-guides-what-corpus-says-of-signer = ce que le corpus dit du signeur
+guide-guides-relations-to-other-signs = relations avec d’autres signes
 guide-guides-milliseconds-from-sound-hand = millisecondes du son à la main
 guide-guides-notation-hamnosys-symbols-names-characters = Notation en HamNoSys, symboles par noms ou caractères
 guide-guides-these-in-this-order-gap = ceux-ci dans cet ordre ; … est un écart

@@ -66,6 +66,7 @@ history-set-citation = Forme de citation : token:{ $token } pour { $gloss }
 history-change-person = Personne modifiée : { $person }
 history-unite-people = { $names } et { $person } ne font plus qu’une seule personne
 history-unite-lexicons = Lexiques réunis : { $names } dans { $lexicon }
+history-relate-signs = Relations de signes ({ $relation }) : { $count }
 history-remove-person = Personne supprimée : { $person }
 history-import-people = { $people ->
     [one] une personne lue
@@ -162,6 +163,7 @@ history-summary-only-set-citation = Forme de citation : { $summary }
 history-summary-only-change-person = Personne modifiée : { $summary }
 history-summary-only-unite-people = Personnes réunies : { $summary }
 history-summary-only-unite-lexicons = Lexiques réunis : { $summary }
+history-summary-only-relate-signs = Relations de signes : { $summary }
 history-summary-only-remove-person = Personne supprimée : { $summary }
 history-summary-only-import-people = Personnes lues dans un tableau : { $summary }
 history-summary-only-change-lexicon = Lexique modifié : { $summary }

@@ -35,6 +35,7 @@ texts-merging-person-alias = autre nom d’une personne
 texts-merging-person-attribute = attribut d’une personne
 texts-merging-lexicon = lexique
 texts-merging-sign = signe
+texts-merging-sign-relation = relation de signes
 texts-merging-token = occurrence
 texts-merging-notation = notation
 texts-merging-attribute = attribut

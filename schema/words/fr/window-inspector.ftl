@@ -45,6 +45,7 @@ window-inspector-made-into = Utilisé dans
 window-inspector-open-recipe = Ouvrir dans Recombiner
 window-inspector-recombine = Recombiner
 window-inspector-text-new = Nouvelle traduction
+window-inspector-relation-new = Nouvelle relation, comme compound-of LIVRE
 window-inspector-remove = Retirer : { $what }
 window-inspector-handedness = Main dominante
 window-inspector-other-names = Autres noms

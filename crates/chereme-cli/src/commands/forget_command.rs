@@ -72,12 +72,16 @@ fn print_forgotten(done: &ForgottenSigner, output: &mut CommandOutput) -> Result
     for path in &done.older_files {
         output.line_as_is(&format!("  {}", path.display()))?;
     }
+    for name in &done.searches {
+        output.line_as_is(&format!("  search @{name}"))?;
+    }
     // Only a file without the person can be searched for traces.
     if done.dry_run {
         return Ok(());
     }
     output.filled_line(
-        "proof: {n} hashes, identities, names and texts were searched for in the bytes of the file, and none was found",
+        "proof: {n} hashes, identities, names and texts were searched for in the bytes of the file, and none was found outside of \
+         rows of others",
         &[&done.searched],
     )?;
     for said in done.still_said.iter().take(MAX_SHOWN_ROWS) {

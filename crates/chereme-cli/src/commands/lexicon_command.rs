@@ -3,7 +3,10 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::{Corpus, CorpusError, LexiconChange, LexiconContents, LexiconScope, LinkedRecordings, RowName};
+use chereme_corpus::{
+    Corpus, CorpusAddress, CorpusError, LexiconChange, LexiconContents, LexiconScope, LinkedRecordings, PairOptions,
+    RelationChange, RowName, SignRelation,
+};
 use clap::{Args, Subcommand};
 
 use super::track_command::parse_recording_address;
@@ -31,6 +34,8 @@ Examples:
   chereme lexicon mine.chereme set ngt --name NGT --language dse --terms 'CC BY 4.0'
   chereme lexicon mine.chereme link NGT recording:3 recording:4
   chereme lexicon mine.chereme link NGT --where signer=Ada
+  chereme lexicon mine.chereme relate BOOKSHOP compound-of BOOK SHOP
+  chereme lexicon mine.chereme relations --by-form --store
   chereme lexicon mine.chereme unite 'NGT (2)' --into NGT")]
 pub(crate) struct LexiconArgs {
     /// The corpus
@@ -60,6 +65,16 @@ enum LexiconAction {
         #[arg(long, value_name = "LEXICON")]
         into: String,
     },
+    /// Say how a sign is related to others: variants, synonyms, the parts of a compound in order
+    ///
+    /// A relation is read from both ends: if BOOKSHOP is compound-of BOOK SHOP, BOOK is part-of BOOKSHOP. Queries know
+    /// related.variant=BOOK and related.part-of=*. Tables bring relations in columns such as "variants", "relations to other
+    /// signs" (variant:BANK, seealso:SHORE) and "sequential morphology" (HOUSE + ROOF).
+    Relate(LexiconRelationArgs),
+    /// Take relations of a sign to others away
+    Unrelate(LexiconRelationArgs),
+    /// List the relations of a sign or of all signs, or those that the form of signs decides
+    Relations(LexiconRelationsArgs),
     /// Remove a lexicon that has no signs
     Remove {
         /// The lexicon, by name
@@ -89,6 +104,49 @@ struct LexiconSetArgs {
     /// Remarks
     #[arg(long, value_name = "TEXT")]
     notes: Option<String>,
+}
+
+#[derive(Debug, Args)]
+struct LexiconRelationArgs {
+    /// The sign, as a gloss or sign:LEXICON/GLOSS
+    #[arg(value_parser = parse_sign_address)]
+    sign: RowName,
+    /// The relation: variant, homonym, synonym, antonym, paradigm, see-also, compound-of, part-of, derived-from, source-of,
+    /// hyponym-of, hypernym-of
+    relation: String,
+    /// The other signs
+    #[arg(required = true, value_parser = parse_sign_address)]
+    others: Vec<RowName>,
+}
+
+#[derive(Debug, Args)]
+struct LexiconRelationsArgs {
+    /// The sign; without it those of all signs
+    #[arg(value_parser = parse_sign_address)]
+    sign: Option<RowName>,
+    /// List the relations that the form decides and nobody stated: homonyms are equal in all fields, the signs of a paradigm
+    /// in all but the handshape
+    #[arg(long, conflicts_with = "sign")]
+    by_form: bool,
+    /// Store them
+    #[arg(long, requires = "by_form")]
+    store: bool,
+    /// The fields that count as form, as in `chereme pairs`
+    #[arg(long, value_name = "FIELD", num_args = 1.., requires = "by_form")]
+    fields: Vec<String>,
+    #[command(flatten)]
+    scope: LexiconScopeArgs,
+}
+
+/// Reads a sign: a gloss, `sign:GLOSS`, `sign:LEXICON/GLOSS` or `sign:12`.
+fn parse_sign_address(text: &str) -> Result<RowName, CorpusError> {
+    match text.parse()? {
+        CorpusAddress::Sign(name) => Ok(name),
+        CorpusAddress::Gloss(gloss) => Ok(RowName::Text(gloss)),
+        _ => {
+            Err(CorpusError::from_wrong_message(format!("{text:?} is no sign")).with_advice("write a gloss or sign:12"))
+        }
+    }
 }
 
 #[derive(Debug, Args)]
@@ -185,6 +243,26 @@ pub(super) fn run(cli: &CommandLine, args: &LexiconArgs, output: &mut CommandOut
             }
             return output.set_json_document(report);
         }
+        Some(LexiconAction::Relate(stated)) => {
+            return stated.change_relations(&mut corpus, RelationChange::Add, output);
+        }
+        Some(LexiconAction::Unrelate(stated)) => {
+            return stated.change_relations(&mut corpus, RelationChange::Remove, output);
+        }
+        Some(LexiconAction::Relations(asked)) => {
+            let relations = match asked.by_form {
+                true => {
+                    let options = PairOptions {
+                        fields: asked.fields.clone(),
+                        scope: asked.scope.lexicon_scope(),
+                        ..PairOptions::default()
+                    };
+                    with_progress_bar(|progress| corpus.relate_by_form(&options, asked.store, progress))?
+                }
+                false => corpus.list_relations(asked.sign.as_ref())?,
+            };
+            return print_relations(&relations, output);
+        }
         Some(LexiconAction::Remove { lexicon }) => {
             let removed = corpus.remove_lexicon(lexicon)?;
             output.filled_line("lexicon removed: {name}", &[&removed.name])?;
@@ -211,6 +289,27 @@ impl LexiconSetArgs {
             notes: filled(&self.notes),
         }
     }
+}
+
+impl LexiconRelationArgs {
+    fn change_relations(&self, corpus: &mut Corpus, change: RelationChange, output: &mut CommandOutput) -> Result<()> {
+        let changed = corpus.change_relations(&self.sign, &self.relation, &self.others, change)?;
+        output.filled_line("relations that changed: {n}", &[&changed])?;
+        print_relations(&corpus.list_relations(Some(&self.sign))?, output)
+    }
+}
+
+fn print_relations(relations: &[SignRelation], output: &mut CommandOutput) -> Result<()> {
+    output.write_item_table(
+        relations,
+        &[
+            ("sign", &|row| row.sign.clone()),
+            ("relation", &|row| row.relation.clone()),
+            ("other sign", &|row| row.related.clone()),
+            ("source", &|row| row.source.clone().unwrap_or_default()),
+        ],
+    )?;
+    output.set_json_document(relations)
 }
 
 /// Returns the names of the first files, and how many more there are.

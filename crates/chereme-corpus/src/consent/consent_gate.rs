@@ -231,19 +231,27 @@ impl PublishPermissions {
             ids.filter(|id| kinds.iter().any(|kind| self.may_be_seen(*id, *kind).is_ok() == is_seen))
                 .collect::<BTreeSet<i64>>()
         });
-        for found in
-            kept_movement::find_movement_pieces(connection, &seen, &withheld, &mut ProgressReceiver::silent_progress())?
-        {
+        let progress = &mut ProgressReceiver::silent_progress();
+        let mut shown = kept_movement::find_movement_pieces(connection, &seen, &withheld, progress)?;
+        // A longer recording may hold a whole take of another one.
+        shown.extend(kept_movement::find_movement_pieces(
+            connection, &withheld, &seen, progress,
+        )?);
+        for found in shown {
+            let [narrowed, by] = match withheld.contains(&found.take) {
+                true => [found.piece, found.take],
+                false => [found.take, found.piece],
+            };
             for kind in kinds {
-                let of_take = self.stated_audience(found.take, kind);
-                if let Some(stated) = self.stated.get_mut(&found.piece) {
+                let of_other = self.stated_audience(by, kind);
+                if let Some(stated) = self.stated.get_mut(&narrowed) {
                     let stated = &mut stated[kind as usize];
                     let before = *stated;
-                    stated.least = stated.least.into_iter().chain(of_take.least).min();
-                    stated.is_incomplete |= of_take.is_incomplete;
-                    stated.is_doubted |= of_take.is_doubted;
+                    stated.least = stated.least.into_iter().chain(of_other.least).min();
+                    stated.is_incomplete |= of_other.is_incomplete;
+                    stated.is_doubted |= of_other.is_doubted;
                     if *stated != before {
-                        stated.narrowed_by = Some(found.take);
+                        stated.narrowed_by = Some(by);
                     }
                 }
             }

@@ -12,7 +12,7 @@ use super::{open, seals, stored_delete, stored_search, token_marks};
 use crate::error::{CorpusError, CorpusResult};
 
 /// The tables that a reader of the data needs, each after those it refers to.
-pub(crate) const DUMPED_TABLES: [&str; 30] = [
+pub(crate) const DUMPED_TABLES: [&str; 32] = [
     "meta",
     "lexicon",
     "signer",
@@ -32,6 +32,8 @@ pub(crate) const DUMPED_TABLES: [&str; 30] = [
     "annotation",
     "sign",
     "sign_text",
+    "relation_kind",
+    "sign_relation",
     "token",
     "token_value",
     "notation",

@@ -15,6 +15,7 @@ pub(crate) mod people;
 pub(crate) mod recipes;
 pub(crate) mod saved_searches;
 pub(crate) mod seals;
+pub(crate) mod sign_relations;
 pub(crate) mod signs;
 mod stale_log;
 pub(crate) mod stored_attributes;

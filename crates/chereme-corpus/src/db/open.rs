@@ -20,7 +20,7 @@ use crate::error::{CorpusError, CorpusResult};
 const APPLICATION_ID: i32 = i32::from_be_bytes(*b"Cher");
 
 /// The steps of the schema; a file's `user_version` is the number of steps that it has taken.
-const SCHEMA_STEPS_SQL: [&str; 17] = [
+const SCHEMA_STEPS_SQL: [&str; 18] = [
     chereme_data::schema_text("sql/0001_corpus.sql"),
     chereme_data::schema_text("sql/0002_notation.sql"),
     chereme_data::schema_text("sql/0003_kept_search.sql"),
@@ -38,6 +38,7 @@ const SCHEMA_STEPS_SQL: [&str; 17] = [
     chereme_data::schema_text("sql/0015_people.sql"),
     chereme_data::schema_text("sql/0016_entries.sql"),
     chereme_data::schema_text("sql/0017_standings.sql"),
+    chereme_data::schema_text("sql/0018_relations.sql"),
 ];
 
 /// The first version whose operations hold their effects, and not only a summary.

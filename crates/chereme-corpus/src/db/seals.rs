@@ -18,11 +18,12 @@ use crate::error::{CorpusError, CorpusResult};
 
 /// Tables with a row for each sign, annotation or block; [`SHARED_BITS`] says how many of their rows share a seal. Each
 /// row of the other tables has its own.
-const SHARED_SEAL_TABLES: [&str; 9] = [
+const SHARED_SEAL_TABLES: [&str; 10] = [
     "annotation",
     "attribute",
     "channel",
     "sign",
+    "sign_relation",
     "sign_text",
     "study_answer",
     "token",

@@ -399,12 +399,13 @@ pub(crate) fn delete_token(connection: &Connection, id: i64) -> CorpusResult<()>
     connection.change_rows("DELETE FROM token WHERE id = ?1", [id])
 }
 
-/// Deletes a sign that has no token and no translation any more, and returns whether it did.
+/// Deletes a sign that has no token, translation and relation any more, and returns whether it did.
 pub(crate) fn delete_empty_sign(connection: &Connection, sign: i64) -> CorpusResult<bool> {
     // Remarks are work of a person, and keep a sign that nothing else needs.
     let sql = "DELETE FROM sign WHERE id = ?1 AND notes IS NULL
                 AND NOT EXISTS (SELECT 1 FROM token WHERE sign_id = ?1)
-                AND NOT EXISTS (SELECT 1 FROM sign_text WHERE sign_id = ?1)";
+                AND NOT EXISTS (SELECT 1 FROM sign_text WHERE sign_id = ?1)
+                AND NOT EXISTS (SELECT 1 FROM sign_relation WHERE ?1 IN (sign_id, related_id))";
     let deleted = connection.count_changes(sql, [sign])?;
     Ok(deleted > 0)
 }

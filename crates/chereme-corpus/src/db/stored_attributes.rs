@@ -6,6 +6,7 @@ use std::rc::Rc;
 use rusqlite::{Connection, params};
 
 use super::people::{SIGNED_TOKENS_SQL, SIGNER_ATTRIBUTE_PREFIX};
+use super::sign_relations::{RELATED_LABEL_SQL, RELATION_PREFIX, RELATIONS_SQL};
 use super::signs::json_list;
 use crate::db::cached_sql::CachedSql;
 use crate::error::CorpusResult;
@@ -64,16 +65,20 @@ pub(crate) fn of_tokens(connection: &Connection, tokens: &[i64]) -> CorpusResult
     Ok(all)
 }
 
-/// Returns the names of all attributes, in order; those of signers begin with [`SIGNER_ATTRIBUTE_PREFIX`].
+/// Returns the names of all attributes, in order; those of signers begin with [`SIGNER_ATTRIBUTE_PREFIX`], and relations with
+/// [`RELATION_PREFIX`].
 pub(crate) fn list_attribute_names(connection: &Connection) -> CorpusResult<Vec<String>> {
-    let sql = "SELECT name FROM attribute UNION SELECT 'signer.' || name FROM person_attribute ORDER BY 1";
-    connection.read_values(sql, [])
+    let sql = format!(
+        "SELECT name FROM attribute UNION SELECT '{SIGNER_ATTRIBUTE_PREFIX}' || name FROM person_attribute
+         UNION SELECT '{RELATION_PREFIX}' || name FROM {RELATIONS_SQL} ORDER BY 1"
+    );
+    connection.read_values(&sql, [])
 }
 
 /// Returns for each token the attributes of these names that count for it.
 ///
 /// A row of a table has its own attributes alone; every other token of a sign has those of the sign's rows. The tokens of
-/// a signer have what is said of the signer.
+/// a signer have what is said of the signer, and those of a sign its relations, whose text is the label of the other sign.
 pub(crate) fn attributes_by_token(
     connection: &Connection,
     names: &[String],
@@ -119,6 +124,23 @@ pub(crate) fn attributes_by_token(
                 name: format!("{SIGNER_ATTRIBUTE_PREFIX}{name}"),
                 text: row.get(1)?,
                 number: row.get(2)?,
+            });
+            by_token.entry(row.get(0)?).or_default().push(attribute_row);
+        }
+    }
+    let relations = names.iter().filter_map(|name| name.strip_prefix(RELATION_PREFIX));
+    let mut statement = connection.prepare_cached(&format!(
+        "SELECT t.id, {RELATED_LABEL_SQL} FROM {RELATIONS_SQL} JOIN sign own ON own.id = r.sign_id
+         JOIN sign other ON other.id = r.related_id JOIN token t ON t.sign_id = r.sign_id WHERE r.name = ?1
+         ORDER BY r.position"
+    ))?;
+    for name in relations {
+        let mut rows = statement.query([name])?;
+        while let Some(row) = rows.next()? {
+            let attribute_row = Rc::new(AttributeRow {
+                name: format!("{RELATION_PREFIX}{name}"),
+                text: row.get(1)?,
+                number: None,
             });
             by_token.entry(row.get(0)?).or_default().push(attribute_row);
         }

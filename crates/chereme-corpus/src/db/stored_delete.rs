@@ -85,10 +85,11 @@ pub(crate) fn delete_recording(connection: &Connection, recording: i64) -> Corpu
     Ok(())
 }
 
-/// Deletes a sign that has no token any more, with its translations and remarks.
+/// Deletes a sign that has no token any more, with its translations, relations and remarks.
 pub(crate) fn delete_sign(connection: &Connection, sign: i64) -> CorpusResult<()> {
     for sql in [
         "DELETE FROM sign_text WHERE sign_id = ?1",
+        "DELETE FROM sign_relation WHERE ?1 IN (sign_id, related_id)",
         "DELETE FROM sign WHERE id = ?1",
     ] {
         connection.change_rows(sql, [sign])?;

@@ -11,6 +11,7 @@ use rusqlite::{Connection, TransactionBehavior};
 use super::dump::{self, OmittedRows};
 use super::people;
 use super::stale_log::companion_path;
+use super::stored_merge;
 use super::stored_motion::to_hex_text;
 use super::{CorpusStore, DerivedData};
 use crate::db::cached_sql::CachedSql;
@@ -228,6 +229,25 @@ pub(crate) fn older_versions(path: &Path) -> Vec<PathBuf> {
     all
 }
 
+/// Returns the name of a person and the other ones.
+fn person_names(connection: &Connection, person: i64) -> CorpusResult<Vec<String>> {
+    let sql = "SELECT name FROM signer WHERE id = ?1 UNION SELECT name FROM person_alias WHERE signer_id = ?1";
+    connection.read_values(sql, [person])
+}
+
+/// Returns the names of the saved searches whose queries name a person.
+pub(crate) fn searches_that_name(connection: &Connection, person: i64) -> CorpusResult<BTreeSet<String>> {
+    let mut searches = BTreeSet::new();
+    for name in person_names(connection, person)? {
+        // One letter stands in every query.
+        if name.chars().count() > 1 {
+            let sql = "SELECT name FROM kept_search WHERE instr(lower(query), lower(?1)) > 0";
+            searches.extend(connection.read_values::<String, Vec<_>>(sql, [name])?);
+        }
+    }
+    Ok(searches)
+}
+
 impl<D: DerivedData> CorpusStore<D> {
     /// Removes a signer and recordings for good, with the history, and writes the file again.
     pub(crate) fn erase_signer(
@@ -236,6 +256,7 @@ impl<D: DerivedData> CorpusStore<D> {
         recordings: &BTreeSet<i64>,
         progress: &mut ProgressReceiver<'_>,
     ) -> CorpusResult<()> {
+        self.require_sole_use()?;
         let erased = self.erase_in_transaction(signer, recordings);
         // Erasing is no operation, so that nothing of it may stay in the notes for one.
         self.connection
@@ -254,12 +275,26 @@ impl<D: DerivedData> CorpusStore<D> {
             .query_row("PRAGMA wal_checkpoint(TRUNCATE)", [], |row| row.get(0))?;
         match is_busy {
             false => Ok(()),
-            true => Err(CorpusError::from_wrong_message(
-                "another program has the corpus open, so that its file cannot be written again",
-            )
-            .with_error_place(self.path.display().to_string())
-            .with_advice("close the other program, then open the corpus and close it")),
+            true => Err(self.shared_use_error()),
         }
+    }
+
+    /// Fails if another program has the file open: its log would keep what is removed here.
+    fn require_sole_use(&self) -> CorpusResult<()> {
+        // Only a program that is alone can leave this mode.
+        let mode = self
+            .connection
+            .pragma_update_and_check(None, "journal_mode", "DELETE", |row| row.get(0));
+        let is_alone = mode.is_ok_and(|mode: String| mode == "delete");
+        self.connection.pragma_update(None, "journal_mode", "WAL")?;
+        is_alone.then_some(()).ok_or_else(|| self.shared_use_error())
+    }
+
+    fn shared_use_error(&self) -> CorpusError {
+        let message = "another program has the corpus open, so that its file cannot be written again";
+        CorpusError::from_wrong_message(message)
+            .with_error_place(self.path.display().to_string())
+            .with_advice("close every program that has the corpus open, and forget the signer again")
     }
 
     fn erase_in_transaction(&mut self, signer: i64, recordings: &BTreeSet<i64>) -> CorpusResult<()> {
@@ -270,6 +305,22 @@ impl<D: DerivedData> CorpusStore<D> {
         transaction.execute_batch("PRAGMA defer_foreign_keys = ON")?;
         // The two versions of an undecided row may say something about the person.
         transaction.execute_batch("DELETE FROM meta WHERE key LIKE 'conflict:%'")?;
+        for name in person_names(&transaction, signer)? {
+            transaction.execute(
+                "DELETE FROM meta WHERE key = 'preferred-annotator' AND value = ?1",
+                [&name],
+            )?;
+        }
+        for search in searches_that_name(&transaction, signer)? {
+            transaction.execute("DELETE FROM kept_search WHERE name = ?1", [search])?;
+        }
+        let mut uids: Vec<String> = transaction.read_values("SELECT hex(uid) FROM signer WHERE id = ?1", [signer])?;
+        for recording in recordings {
+            uids.push(transaction.read_value("SELECT hex(uid) FROM recording WHERE id = ?1", [recording])?);
+        }
+        for uid in uids {
+            stored_merge::set_note(&transaction, &stored_merge::forgotten_row_note(&uid), "1")?;
+        }
         let omitted = OmittedRows {
             recordings,
             history: true,

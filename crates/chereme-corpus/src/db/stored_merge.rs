@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use rusqlite::{Connection, OptionalExtension, params};
 use serde_json::{Map, Value};
+use sha2::{Digest as _, Sha256};
 
 use super::stored_history;
 use super::stored_history::tracked::{
@@ -12,6 +13,7 @@ use super::stored_history::tracked::{
 };
 use crate::db::cached_sql::CachedSql;
 use crate::db::people::ADJUDICATION_ANNOTATOR;
+use crate::db::stored_motion::to_hex_text;
 use crate::error::CorpusResult;
 
 /// A row as JSON; columns that refer to other rows hold their uids.
@@ -325,6 +327,7 @@ pub(crate) fn find_namesake_row(connection: &Connection, table: &str, image: &Ro
         "tier" | "track" => &["recording_id", "name"],
         "attribute" => &["token_id", "name"],
         "person_alias" => &["name"],
+        "sign_relation" => &["sign_id", "kind", "related_id", "position"],
         "person_attribute" => &["signer_id", "name"],
         "notation" => &["token_id"],
         "recipe" => &["recording_id"],
@@ -499,9 +502,26 @@ pub(crate) fn set_note(connection: &Connection, key: &str, value: &str) -> Corpu
     connection.change_rows(sql, [key, value])
 }
 
+/// The beginning of the notes that keep a forgotten person from coming back with a copy that knows the person. What follows
+/// is a hash of a random identity, by which nobody can be found.
+const FORGOTTEN_ROW_PREFIX: &str = "forgotten:";
+
+/// Returns the note for a signer or recording that is forgotten.
+pub(crate) fn forgotten_row_note(uid: &str) -> String {
+    let hash = Sha256::digest(uid.to_uppercase().as_bytes());
+    format!("{FORGOTTEN_ROW_PREFIX}{}", to_hex_text(&hash))
+}
+
+/// Returns the notes of all signers and recordings that were forgotten.
+pub(crate) fn list_forgotten_rows(connection: &Connection) -> CorpusResult<BTreeSet<String>> {
+    let notes = list_corpus_notes(connection, FORGOTTEN_ROW_PREFIX)?;
+    Ok(notes.into_iter().map(|(key, _)| key).collect())
+}
+
 /// Reports whether anything refers to a sign.
 pub(crate) fn sign_is_used(connection: &Connection, sign: i64) -> CorpusResult<bool> {
-    let sql = "SELECT EXISTS (SELECT 1 FROM token WHERE sign_id = ?1)";
+    let sql = "SELECT EXISTS (SELECT 1 FROM token WHERE sign_id = ?1)
+        OR EXISTS (SELECT 1 FROM sign_relation WHERE ?1 IN (sign_id, related_id))";
     connection.read_value(sql, [sign])
 }
 

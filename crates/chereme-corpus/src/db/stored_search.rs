@@ -142,6 +142,7 @@ pub(crate) fn delete_file(connection: &Connection, path: &str) -> CorpusResult<(
 
 /// Deletes all files of the index.
 pub(crate) fn delete_files(connection: &Connection) -> CorpusResult<()> {
-    connection.execute("DELETE FROM search_file", [])?;
+    // A corpus without an index is whole: the next search builds it.
+    connection.execute_batch("DELETE FROM search_file; UPDATE search_state SET format = 0;")?;
     Ok(())
 }

@@ -38,6 +38,8 @@ fn nothing_of_a_forgotten_person_is_in_the_bytes_and_nothing_brings_them_back() 
     let path = corpus.corpus_file_path().to_owned();
     let older = path.with_file_name("a.version-3.chereme");
     corpus.store.copy_store_file(&older).expect("copied");
+    let elsewhere = folder.path().join("elsewhere.chereme");
+    corpus.store.copy_store_file(&elsewhere).expect("copied");
     let bytes_say = |text: &str| {
         let bytes = fs::read(&path).expect("read");
         bytes.windows(text.len()).any(|part| part == text.as_bytes())
@@ -62,11 +64,24 @@ fn nothing_of_a_forgotten_person_is_in_the_bytes_and_nothing_brings_them_back() 
     corpus
         .export_corpus(&ExportWhat::All, &to, &ExportOptions::default(), progress)
         .expect("what stays is whole");
+    // Whoever gets the copy finds it well, too.
+    let mut copy = Corpus::open_corpus(&to.join("corpus.chereme"), "test").expect("open");
+    let faults = copy.check_corpus(false, progress).expect("checked").faults;
+    assert!(faults.is_empty(), "{faults:?}");
     corpus
         .recombine_recipe("ESCARGOT | mirror", "AFTER")
         .expect("work goes on");
     corpus.undo_operation().expect("undone");
     assert!(forget(&mut corpus, false).is_err(), "nobody of this name is left");
+    // A copy that somebody else kept brings nobody back either.
+    let merged = corpus.merge_corpus(&elsewhere, None, progress).expect("merged");
+    assert!(
+        merged.notes.iter().any(|note| note.contains("forgotten here")),
+        "{merged:?}"
+    );
+    assert!(!bytes_say("qzrecordingzq") && !bytes_say("Qzbeazq"));
+    let fault = corpus.check_corpus(false, progress).expect("checked").faults;
+    assert!(fault.is_empty(), "{fault:?}");
 }
 
 #[test]
@@ -136,4 +151,39 @@ fn a_person_whose_movement_stands_under_another_name_is_not_forgotten() {
         corpus.undo_operation().expect("undone");
     }
     assert!(forget(&mut corpus, false).is_ok(), "nothing holds it any more");
+}
+
+#[test]
+fn nothing_is_erased_while_another_program_has_the_corpus_open_and_searches_that_name_the_person_go() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = two_signers(folder.path());
+    let searches = [("hers", "signer=Qzbeazq"), ("chin", "placement=chin")].map(|(name, query)| crate::KeptSearch {
+        name: name.into(),
+        query: query.into(),
+    });
+    corpus.keep_searches(&searches).expect("kept");
+    let other = rusqlite::Connection::open(corpus.corpus_file_path()).expect("open");
+    let reading = other.unchecked_transaction().expect("reading");
+    let _: i64 = reading
+        .query_row("SELECT count(*) FROM signer", [], |row| row.get(0))
+        .expect("read");
+    let refused = forget(&mut corpus, false).expect_err("it is open elsewhere");
+    assert!(refused.to_string().contains("another program"), "{refused}");
+    let names = |corpus: &Corpus| {
+        let rows = stored_recordings::load_recording_rows(corpus.store.read_connection()).expect("read");
+        rows.len()
+    };
+    assert_eq!(names(&corpus), 3, "nothing has gone");
+    drop(reading);
+    drop(other);
+    let done = forget(&mut corpus, false).expect("forgotten");
+    assert_eq!(done.searches, ["hers"]);
+    assert_eq!(names(&corpus), 2);
+    let kept: Vec<String> = corpus
+        .kept_searches()
+        .expect("read")
+        .into_iter()
+        .map(|kept| kept.name)
+        .collect();
+    assert_eq!(kept, ["chin"]);
 }

@@ -8,7 +8,7 @@ use chereme_sign::text::compose_accents;
 use serde_json::{Map, Value};
 
 use super::ImportJob;
-use super::lexicon::SHOWN_NAMES;
+use super::lexicon::{SHOWN_NAMES, is_name_of_file};
 use crate::db::signs::{self, TokenRow};
 use crate::error::CorpusResult;
 use crate::forms::row_has_cells;
@@ -108,7 +108,15 @@ impl EarlierEntries {
                 // Entries of older corpora know only the name of their file.
                 None => origin["file"].as_str() == Some(&job.file_name),
             };
-            let same = same || (named.is_some() && token.lexicon.as_deref() == named);
+            let lexicon = token.lexicon.as_deref();
+            // A lexicon that somebody named keeps its entries, whatever else lies at the same place.
+            let is_other = job
+                .options
+                .lexicon
+                .as_deref()
+                .is_some_and(|named| lexicon != Some(named))
+                && lexicon.is_some_and(|lexicon| !is_name_of_file(lexicon, &job.stem));
+            let same = same && !is_other || (named.is_some() && lexicon == named);
             // A sign from a SiGML file has no cells: it is an entry of its own.
             if let Value::Object(cells) = origin["cells"].take()
                 && same

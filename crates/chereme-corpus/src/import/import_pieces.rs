@@ -1,6 +1,6 @@
 //! Captures whose movement the corpus has already, as a stretch of another recording.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use rusqlite::Connection;
 
@@ -26,16 +26,28 @@ pub(super) fn report_known_movement_pieces(
             Some((rows.iter().find(is_named)?.id, at))
         })
         .collect();
-    let takes = rows.iter().map(|row| row.id).collect();
-    let pieces = new.keys().copied().collect();
-    for found in consent::find_movement_pieces(connection, &pieces, &takes, progress)? {
-        let Some(take) = rows.iter().find(|row| row.id == found.take) else {
+    let (pieces, others): (BTreeSet<i64>, BTreeSet<i64>) =
+        rows.iter().map(|row| row.id).partition(|id| new.contains_key(id));
+    let takes = pieces.union(&others).copied().collect();
+    let mut found = consent::find_movement_pieces(connection, &pieces, &takes, progress)?;
+    // A longer recording may hold a whole take that was there before.
+    found.extend(consent::find_movement_pieces(connection, &others, &pieces, progress)?);
+    for found in found {
+        let (is_piece, piece) = (new.contains_key(&found.piece), found.piece);
+        let (known, at) = match is_piece {
+            true => (found.take, new[&piece]),
+            false => (piece, new[&found.take]),
+        };
+        let Some(take) = rows.iter().find(|row| row.id == known) else {
             continue;
         };
         let (start, end) = (found.span.span_start_instant(), found.span.span_end_instant());
         let (name, signer) = (&take.name, take.signer.as_deref().unwrap_or("-"));
-        let message = format!("its movement is that of the recording {name:?} from {start} to {end}, of {signer}");
-        files[new[&found.piece]].findings.push(ReportFinding::finding_warning(
+        let message = match is_piece {
+            true => format!("its movement is that of the recording {name:?} from {start} to {end}, of {signer}"),
+            false => format!("from {start} to {end} it shows the recording {name:?}, of {signer}"),
+        };
+        files[at].findings.push(ReportFinding::finding_warning(
             message,
             "it shows the same person, so that the narrower consent of the two recordings holds; give both the same \
              signer, or undo the import",

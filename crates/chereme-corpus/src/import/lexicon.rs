@@ -15,6 +15,7 @@ use serde_json::{Map, Value, json};
 use super::earlier_entries::EarlierEntries;
 use super::import_lexicons::{LexiconCells, lexicon_of_table, names_other_lexicon};
 use super::import_notation::{LexiconNotationText, NotationValueMapper};
+use super::import_relations::RelationColumns;
 use super::{FileReport, FileStatus, ImportJob};
 use crate::db::edits;
 use crate::db::lexicons;
@@ -24,6 +25,7 @@ use crate::db::stored_columns::{RecordOrigin, ValueState};
 use crate::db::stored_recordings::{self, SourceFileRow};
 use crate::error::{CorpusError, CorpusResult};
 use crate::inventories;
+use crate::lexicon::entry_match;
 use crate::progress::{ProgressReceiver, ProgressUnit};
 use crate::report_finding::ReportFinding;
 
@@ -31,8 +33,9 @@ use crate::report_finding::ReportFinding;
 pub(super) const SHOWN_NAMES: usize = 8;
 
 pub(super) fn import_lexicon(job: &mut ImportJob<'_>, progress: &mut ProgressReceiver<'_>) -> CorpusResult<FileReport> {
-    let source = LexiconFileSource::find_lexicon_source(job);
-    let earlier_report = job.report_unchanged_file();
+    let source = LexiconFileSource::find_lexicon_source(job)?;
+    // The bytes may be those of another lexicon, which stays as it is.
+    let earlier_report = source.newest.and_then(|_| job.report_unchanged_file());
     if let Some(report) = &earlier_report
         // A mapping or a lexicon may give the same bytes another meaning.
         && job.options.mapping.mapping_entry_names().next().is_none()
@@ -85,8 +88,11 @@ pub(super) fn import_lexicon(job: &mut ImportJob<'_>, progress: &mut ProgressRec
     let stored = job.inventories.clone();
     let words = NotationValueMapper::new(&stored);
     let total = Some(table.entries.len() as u64);
+    let relations = RelationColumns::find_relation_columns(job, &table)?;
+    let mut tokens = Vec::new();
     for (done, entry) in table.entries.iter().enumerate() {
         let token = import_entry(job, &table, entry, (&inventories, &numerals), &mut signs)?;
+        tokens.push(token);
         if let Some(text) = &entry.notation {
             let notation = LexiconNotationText {
                 token,
@@ -103,8 +109,10 @@ pub(super) fn import_lexicon(job: &mut ImportJob<'_>, progress: &mut ProgressRec
         }
     }
     signs.leave_emptied(job)?;
+    relations.store_table_relations(job, &table, &tokens, &mut report)?;
     report.findings.extend(signs.further_forms_finding());
     report.findings.extend(signs.homonyms_finding());
+    report.findings.extend(signs.renamed_signs_finding());
     report.findings.extend(signs.earlier.row_id_finding());
     report.findings.extend(signs.earlier.missing_entries_finding());
     Ok(report)
@@ -156,7 +164,7 @@ struct LexiconFileSource {
 }
 
 impl LexiconFileSource {
-    fn find_lexicon_source(job: &ImportJob<'_>) -> Self {
+    fn find_lexicon_source(job: &ImportJob<'_>) -> CorpusResult<Self> {
         let same_file = || job.places.files_with_hash(&job.hash).filter(|row| row.kind == job.kind);
         let here = |row: &&SourceFileRow| row.path.as_deref() == Some(&job.place);
         // A copy at this path counts more than one that was moved from elsewhere.
@@ -164,11 +172,30 @@ impl LexiconFileSource {
         let earlier_place = same.and_then(|row| row.path.as_ref());
         let place = earlier_place.unwrap_or(&job.place).clone();
         let newest = job.places.find_file_at(&place, job.kind).or(same);
-        Self {
+        let source = Self {
             newest: newest.map(|row| row.id),
             same_bytes: same.map(|row| row.id),
             place,
+        };
+        // Only a lexicon that nobody named is renamed by a later import; a named one keeps its entries.
+        match source.is_of_other_lexicon(job)? && !source.has_name_of_file(job)? {
+            true => Ok(Self {
+                place: source.place,
+                ..Self::default()
+            }),
+            false => Ok(source),
         }
+    }
+
+    /// Returns whether the lexicon of the earlier import has the name of the file, as one that nobody named.
+    fn has_name_of_file(&self, job: &ImportJob<'_>) -> CorpusResult<bool> {
+        let lexicon = match self.newest {
+            Some(file) => lexicons::lexicon_of_file(job.connection, file)?,
+            None => None,
+        };
+        let rows = lexicons::load_lexicon_rows(job.connection)?;
+        let row = rows.iter().find(|row| Some(row.id) == lexicon);
+        Ok(row.is_none_or(|row| is_name_of_file(&row.name, &job.stem)))
     }
 
     /// Returns whether the options name another lexicon than that of the earlier import.
@@ -179,6 +206,12 @@ impl LexiconFileSource {
         };
         names_other_lexicon(job, earlier)
     }
+}
+
+/// Returns whether a lexicon has the name that the import of a file gives one: `asl`, or `asl (2)`.
+pub(super) fn is_name_of_file(lexicon: &str, stem: &str) -> bool {
+    let rest = lexicon.strip_prefix(stem.trim());
+    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(" ("))
 }
 
 /// Returns the meanings of the columns that a mapping names, as mappings spell them, by title.
@@ -269,6 +302,8 @@ struct LexiconSigns {
     left: BTreeMap<i64, BTreeSet<String>>,
     /// The rows that are forms of a sign with another row, each with its line.
     further_forms: Vec<String>,
+    /// The signs whose gloss changed in the table, each with both.
+    renamed: Vec<String>,
 }
 
 /// Lexicon and gloss of an entry, and its number among those of the gloss if something keeps them apart.
@@ -307,7 +342,8 @@ impl LexiconSigns {
         if let Some(lexicon) = lexicon
             .as_ref()
             .filter(|_| job.options.lexicon.is_none() && source.newest.is_none())
-            && lexicon.name.starts_with(&format!("{} (", job.stem.trim()))
+            && lexicon.name != job.stem.trim()
+            && is_name_of_file(&lexicon.name, &job.stem)
         {
             let (name, other) = (&lexicon.name, &job.stem);
             report.findings.push(ReportFinding::finding_warning(
@@ -338,6 +374,12 @@ impl LexiconSigns {
     ) -> CorpusResult<&mut KnownSign> {
         let lexicon = self.by_row.lexicon_of_row(row).or(self.lexicon);
         let gloss = compose_accents(&row.gloss).into_owned();
+        if let Some(token) = earlier
+            && let Some(id) = self.keep_renamed_sign(job, row, token, lexicon)?
+        {
+            let has_citation = signs::has_citation(job.connection, id)?;
+            return Ok(self.signs.entry(id).or_insert(KnownSign { id, has_citation }));
+        }
         let number = match self.by_row.number_of_row(row) {
             Some(number) => Some(number),
             None => self.number_of_entry(job, (lexicon, &gloss), earlier)?,
@@ -363,6 +405,63 @@ impl LexiconSigns {
                 has_citation: signs::has_citation(job.connection, id)?,
             })),
         }
+    }
+
+    /// Returns the sign of an entry whose gloss the table or a person changed since the last import: it stays the same sign,
+    /// with its translations, remarks and relations. A gloss that the table changed becomes that of the sign, unless a person
+    /// gave it another one. Nothing if the row is an entry by its gloss.
+    fn keep_renamed_sign(
+        &mut self,
+        job: &mut ImportJob<'_>,
+        row: &LexiconEntry,
+        token: &TokenRow,
+        lexicon: Option<i64>,
+    ) -> CorpusResult<Option<i64>> {
+        let sign = token.sign_id;
+        let own = compose_accents(token.plain_gloss()).into_owned();
+        let now = compose_accents(&row.gloss).into_owned();
+        let stays_in_lexicon = lexicons::lexicon_of_sign(job.connection, sign)? == lexicon;
+        if !self.earlier.has_row_ids() || own == now || !stays_in_lexicon {
+            return Ok(None);
+        }
+        let source = token.source.as_deref().unwrap_or_default();
+        let origin: Value = serde_json::from_str(source).unwrap_or_default();
+        let before = origin["gloss"].as_str().unwrap_or(&own);
+        let is_tables_gloss = compose_accents(before) == own.as_str();
+        let number = token.homonym.unwrap_or(1);
+        let key = |gloss: &str| (lexicon, gloss.to_owned(), Some(number));
+        if is_tables_gloss {
+            let is_taken = signs::find_entry(job.connection, lexicon, &now, Some(number))?.is_some()
+                || self.known.contains_key(&key(&now));
+            // Other rows of the sign still say the former gloss.
+            if is_taken || entry_match::lexicon_tokens(job.connection, sign)?.len() > 1 {
+                return Ok(None);
+            }
+            let (_, notes) = edits::sign_gloss_and_notes(job.connection, sign)?;
+            let label = signs::sign_label(job.connection, sign)?;
+            edits::update_sign(job.connection, sign, (&row.gloss, number), notes.as_deref())?;
+            let renamed = signs::sign_label(job.connection, sign)?;
+            edits::replace_gloss_values(job.connection, sign, &label, &renamed)?;
+            job.counts.count_changed_rows("signs", 1);
+            self.renamed.push(format!("{label} is {renamed}"));
+        } else if compose_accents(before) != now.as_str() {
+            self.renamed.push(format!("{own} (the table says {now})"));
+        }
+        let gloss = if is_tables_gloss { &now } else { &own };
+        self.known.insert(key(gloss), sign);
+        Ok(Some(sign))
+    }
+
+    /// Returns a finding about the signs whose gloss changed in the table.
+    fn renamed_signs_finding(&self) -> Option<ReportFinding> {
+        let list = self.renamed.iter().take(SHOWN_NAMES).map(String::as_str);
+        let list = list.collect::<Vec<_>>().join("; ");
+        (!list.is_empty()).then(|| {
+            ReportFinding::finding_note(format!(
+                "signs with another gloss in the table, which stay the same signs: {} ({list})",
+                self.renamed.len()
+            ))
+        })
     }
 
     /// Returns the number of a row among the entries of its gloss: the one that it had before, unless another row has it;
@@ -662,5 +761,7 @@ fn lexicon_row_cells(
         })
         .map(|(column, cell)| (column.title.clone(), Value::from(cell.as_str())))
         .collect();
-    json!({ "file": job.file_name, "path": source.place, "line": entry.line, "cells": cells })
+    json!({
+        "file": job.file_name, "path": source.place, "line": entry.line, "gloss": entry.gloss, "cells": cells
+    })
 }

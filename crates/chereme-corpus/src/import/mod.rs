@@ -20,6 +20,7 @@ mod import_notation;
 mod import_pieces;
 mod import_places;
 mod import_points;
+mod import_relations;
 mod import_report;
 mod import_tracks;
 mod import_unread;

@@ -7,7 +7,7 @@ use super::entry_match::{self, EntryPlace};
 use super::require_lexicon;
 use crate::Corpus;
 use crate::db::lexicons::{self, LexiconRow};
-use crate::db::{edits, signs, stored_delete};
+use crate::db::{edits, sign_relations, signs, stored_delete};
 use crate::error::{CorpusError, CorpusResult};
 use crate::inventories;
 use crate::progress::ProgressReceiver;
@@ -168,5 +168,6 @@ fn unite_entry(connection: &Connection, sign: i64, kept: i64, report: &mut Unite
     let joined_notes = join_remarks(own_notes, notes);
     edits::update_sign(connection, there, (&own_gloss, own_number), joined_notes.as_deref())?;
     signs::move_tokens(connection, sign, there)?;
+    sign_relations::move_relations(connection, sign, there)?;
     stored_delete::delete_sign(connection, sign)
 }

@@ -47,6 +47,32 @@ impl MergeWork<'_> {
         Ok(!contested.is_empty() && top(&self.mine, key, above, &is_contested)?.is_some())
     }
 
+    /// Leaves out what the other side holds of people who were forgotten here.
+    pub(super) fn leave_out_forgotten(&mut self) -> CorpusResult<()> {
+        let forgotten = db::list_forgotten_rows(self.connection)?;
+        if forgotten.is_empty() {
+            return Ok(());
+        }
+        let mut above = RowsAbove::new();
+        let is_forgotten = |key: &TableRowKey| {
+            Ok(matches!(&*key.0, "signer" | "recording") && forgotten.contains(&db::forgotten_row_note(&key.1)))
+        };
+        let mut left_out = BTreeSet::new();
+        for key in self.theirs.touched.keys() {
+            if top(&self.theirs, key, &mut above, &is_forgotten)?.is_some() {
+                left_out.insert(key.clone());
+            }
+        }
+        self.theirs.touched.retain(|key, _| !left_out.contains(key));
+        let recordings = left_out.iter().filter(|key| key.0 == "recording").count();
+        if !left_out.is_empty() {
+            self.report.notes.push(format!(
+                "the other corpus still holds a person who was forgotten here, with {recordings} recordings: left out"
+            ));
+        }
+        Ok(())
+    }
+
     /// Arranges that rows come back which this side removed and in which the other side changed a part, with all of
     /// their parts there.
     pub(super) fn bring_back(&mut self) -> CorpusResult<()> {

@@ -55,7 +55,7 @@ pub struct MergeReport {
 
 /// The tables that are merged; a table comes after those it refers to. Tokens of annotations are not merged but
 /// derived.
-const MERGED_TABLE_ORDER: [&str; 22] = [
+const MERGED_TABLE_ORDER: [&str; 23] = [
     "lexicon",
     "signer",
     "person_alias",
@@ -70,6 +70,7 @@ const MERGED_TABLE_ORDER: [&str; 22] = [
     "tier",
     "annotation",
     "sign",
+    "sign_relation",
     "token",
     "recipe",
     "kept_search",
@@ -204,6 +205,7 @@ struct MergeWork<'c> {
 
 impl MergeWork<'_> {
     fn merge_all_rows(&mut self, progress: &mut ProgressReceiver<'_>) -> CorpusResult<()> {
+        self.leave_out_forgotten()?;
         self.bring_back()?;
         let touched: Vec<TableRowKey> = self.theirs.touched.keys().cloned().collect();
         let mut gone: Vec<TableRowKey> = Vec::new();

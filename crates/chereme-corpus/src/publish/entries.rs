@@ -12,6 +12,7 @@ use crate::consent::{ConsentKind, PublishPermissions, WithheldReason};
 use crate::db::edits;
 use crate::db::lexicons;
 use crate::db::notations;
+use crate::db::sign_relations;
 use crate::db::signs::{self, TokenRow, TokenValueRow};
 use crate::db::stored_attributes::{self, AttributeRow};
 use crate::db::stored_columns::{RecordOrigin, ValueState};
@@ -64,6 +65,8 @@ pub(super) struct DictionaryEntry {
     pub(super) source: MovementSource,
     /// Minimal pairs: the other entry, and the field in which they differ.
     pub(super) pairs: Vec<(usize, String)>,
+    /// Relations to other entries: the name of each, and the other entry.
+    pub(super) relations: Vec<(String, usize)>,
 }
 
 /// Whether a sign's movement is shown.
@@ -192,11 +195,13 @@ pub(super) fn collect_dictionary_entries(
             person,
             moves,
             pairs: Vec::new(),
+            relations: Vec::new(),
         });
     }
     name_folders(&mut entries.all);
     entries.people = people.len();
     entries.without_pairs = !add_pairs(&mut entries.all);
+    add_relations(corpus.store.read_connection(), &mut entries)?;
     Ok(entries)
 }
 
@@ -404,6 +409,22 @@ fn entry_values(connection: &Connection, token: &TokenRow, own_tokens: &[i64]) -
 
 fn has_body(corpus: &Corpus, recording: i64) -> CorpusResult<bool> {
     Ok(stored_recordings::body_track(corpus.store.read_connection(), recording)?.is_some())
+}
+
+/// Adds the relations between entries whose lexicons have terms.
+fn add_relations(connection: &Connection, entries: &mut DictionaryEntries) -> CorpusResult<()> {
+    let unlicensed: BTreeSet<&String> = entries.unlicensed.iter().map(|(gloss, _)| gloss).collect();
+    let licensed = entries.all.iter().enumerate();
+    let places: BTreeMap<i64, usize> = licensed
+        .filter(|(_, entry)| !unlicensed.contains(&entry.gloss))
+        .map(|(place, entry)| (entry.token.sign_id, place))
+        .collect();
+    for row in sign_relations::load_sign_relations(connection, None)? {
+        if let [Some(&own), Some(&other)] = [row.sign_id, row.related_id].map(|sign| places.get(&sign)) {
+            entries.all[own].relations.push((row.relation, other));
+        }
+    }
+    Ok(())
 }
 
 /// Adds the minimal pairs; returns whether there are few enough of them.

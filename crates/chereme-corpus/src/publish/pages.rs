@@ -182,6 +182,7 @@ impl DictionarySite<'_> {
                 ("FORM", &self.sign_form_html(entry)),
                 ("NOTATION", &sign_notation_html(entry)),
                 ("ATTRIBUTES", &sign_attributes_html(entry)),
+                ("RELATIONS", &sign_relations_html(entry, entries)),
                 ("PAIRS", &self.sign_pairs_html(entry, entries, moving)),
                 ("NEIGHBOURS", &sign_neighbours_html(at, entries)),
                 ("NOTES", &notes),
@@ -303,6 +304,23 @@ fn sign_attributes_html(entry: &DictionaryEntry) -> String {
     match rows.is_empty() {
         true => rows,
         false => format!("<h2>{}</h2><dl>{rows}</dl>", page_text_all_languages("attributes")),
+    }
+}
+
+/// Returns the relations of a sign to others of the dictionary, with links.
+fn sign_relations_html(entry: &DictionaryEntry, entries: &[DictionaryEntry]) -> String {
+    let mut rows = String::new();
+    for (name, other) in &entry.relations {
+        let (words, other) = (page_text_all_languages(&format!("relation-{name}")), &entries[*other]);
+        let (place, gloss) = (in_address(&other.name), escape_markup(&other.gloss));
+        let _ = write!(
+            rows,
+            "<li>{words} <a class=\"own\" href=\"../{place}/index.html\">{gloss}</a></li>"
+        );
+    }
+    match rows.is_empty() {
+        true => rows,
+        false => format!("<h2>{}</h2><ul>{rows}</ul>", page_text_all_languages("relations")),
     }
 }
 

@@ -121,6 +121,8 @@ pub enum OperationEffect {
     UnitePeople { names: Vec<String>, person: String },
     /// Lexicons became one.
     UniteLexicons { names: Vec<String>, lexicon: String },
+    /// Relations between signs were added or taken away.
+    RelateSigns { count: u64, relation: String },
     /// A person of whom nothing was recorded was removed.
     RemovePerson { person: String },
     /// A table of people was read.
@@ -356,6 +358,7 @@ impl OperationEffect {
             Self::ChangePerson { .. } | Self::RemovePerson { .. } => "{person}",
             Self::UnitePeople { .. } => "{names} into {person}",
             Self::UniteLexicons { .. } => "{names} into {lexicon}",
+            Self::RelateSigns { .. } => "{relation}: {count}",
             Self::ImportPeople { .. } => "{people} people from {file}",
             Self::ChangeLexicon { .. } | Self::RemoveLexicon { .. } => "{lexicon}",
             Self::MeasureSigns { .. } => "{counted signs}",

@@ -21,6 +21,7 @@ pub fn merged_kind_noun(table: &str) -> InterfaceText {
         ("person_attribute", PERSON_ATTRIBUTE),
         ("lexicon", LEXICON),
         ("sign", SIGN),
+        ("sign_relation", SIGN_RELATION),
         ("token", TOKEN),
         ("notation", NOTATION),
         ("attribute", ATTRIBUTE),

@@ -26,7 +26,7 @@
 //! | term | `not` *term*, `(` *alternatives* `)`, *comparison*, *relation comparison*, *example*, *saved*, *text* |
 //! | comparison | *component* (`=` `!=` `==`) *values* \[`{` *comparison* { *comparison* } `}`\]; *property* (`=` `:` `!=` `==`) *values*; *textfield* (`=` `!=` `==`) *values*; *textfield* `:` *text* { `,` *text* }; *textfield* `~` *text* \[`~1` `~2`\]; *timefield* (`<` `<=` `>` `>=` `=`) *time*; *timefield* `=` \[*time*\]`..`\[*time*\]; `tier(`*text*`)` (`=` `!=` `==`) *values*; *attribute* (`=` `!=` `==`) *values*; *attribute* (`<` `<=` `>` `>=`) *number*; *attribute* `=` \[*number*\]`..`\[*number*\]; *curve* (`<` `<=` `>` `>=`) *number* \[`for` *time*\]; *curve* `=` \[*number*\]`..`\[*number*\] \[`for` *time*\] |
 //! | curve | `nonmanual.`*name*, before a number |
-//! | attribute | `attribute.`*name*, `signer.`*name*, `attribute(`*text*`)`; the *name* alone before a number |
+//! | attribute | `attribute.`*name*, `signer.`*name*, `related.`*name*, `attribute(`*text*`)`; the *name* alone before a number |
 //! | component | \[*phase*`.`\] \[*hand*`.`\] (`configuration` `placement` `movement` `orientation` `nonmanual`) \[`.`*part*\] |
 //! | phase, hand | `initial` `middle` `final`; `right` `left` `dominant` `weak` |
 //! | property | `origin` `signer` `recording` `sign` `token` `tier` `inventory` `hand` `proposed` `disputed` `by` |
@@ -139,6 +139,7 @@ Times: duration, start, end, in s, ms or min
 Attributes of the sign, from a lexicon table
   frequency>0.4   attribute.class=Noun   attribute("Sign Frequency")=2..5
   signer.region=north   signer.age>40     what the corpus says of the signer
+  related.variant=BOOK   related.part-of=*   relations to other signs
 
 Curves of face and head during the token (1 is the usual reach, or degrees)
   nonmanual.brows>0.5 for 0.3s   nonmanual.jaw_open>0.4   nonmanual.head_yaw<-10

@@ -57,13 +57,18 @@ pub(super) fn opens_name(word: &str) -> bool {
 /// The words before the name of something that is said of a signer: `signer.region`.
 const SIGNER_ATTRIBUTE_WORDS: [&str; 2] = ["signer", "signeur"];
 
-/// Returns the name of the attribute that a word is: the name after `attribute.`, or the whole of `signer.region`.
+/// The words before the name of a relation to other signs: `related.variant`.
+const RELATION_WORDS: [&str; 2] = ["related", "relation"];
+
+/// Returns the name of the attribute that a word is: the name after `attribute.`, or the whole of `signer.region` or
+/// `related.variant`.
 pub(super) fn attribute_name_of_word(word: &str) -> Option<String> {
     let (first, name) = word.split_once('.').filter(|(_, name)| !name.is_empty())?;
     let first = first.to_lowercase();
-    match SIGNER_ATTRIBUTE_WORDS.contains(&first.as_str()) {
-        true => Some(format!("{}.{name}", SIGNER_ATTRIBUTE_WORDS[0])),
-        false => opens_name(&first).then(|| name.to_owned()),
+    let words = [SIGNER_ATTRIBUTE_WORDS, RELATION_WORDS];
+    match words.iter().find(|words| words.contains(&first.as_str())) {
+        Some([word, _]) => Some(format!("{word}.{name}")),
+        None => opens_name(&first).then(|| name.to_owned()),
     }
 }
 

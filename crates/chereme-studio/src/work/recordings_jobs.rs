@@ -2,7 +2,7 @@
 
 use chereme_corpus::{
     ConsentChange, CorpusAddress, DeleteOptions, FitOptions, LinkedRecordings, MediaChange, ObjectDetails,
-    PersonChange, RecordingChange, RowName, SignChange, SignerChange, TrackChange,
+    PersonChange, RecordingChange, RelationChange, RowName, SignChange, SignerChange, TrackChange,
 };
 
 use super::{CorpusJob, JobAbout, WorkOutcome};
@@ -52,6 +52,13 @@ pub(crate) fn prefer_annotator_job(name: Option<String>) -> CorpusJob {
 /// Changes a sign.
 pub(crate) fn change_sign(name: RowName, change: SignChange) -> CorpusJob {
     CorpusJob::new_change_job(move |corpus, _| corpus.change_sign(&name, &change))
+}
+
+/// Adds a relation of a sign to another one, or takes it away.
+pub(crate) fn change_relation_job(sign: i64, relation: String, other: RowName, change: RelationChange) -> CorpusJob {
+    CorpusJob::new_change_job(move |corpus, _| {
+        corpus.change_relations(&RowName::Number(sign), &relation, &[other], change)
+    })
 }
 
 /// Looks up the glosses of a recording in a lexicon from now on, or in none.

@@ -161,6 +161,57 @@ fn a_sign_that_comes_back_from_a_file_has_the_consents_of_those_it_was_made_from
 }
 
 #[test]
+fn a_longer_recording_and_near_copies_show_the_take_that_is_in_them() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = copies(folder.path());
+    let near = [
+        ("SLOWER", "BOL | retime 101%"),
+        ("LONG", "BOL | retime 250%"),
+        ("BACK", "LONG | retime 40%"),
+        ("LARGER", "BOL | amplify both 1.02"),
+    ];
+    for (gloss, recipe) in near {
+        corpus.recombine_recipe(recipe, gloss).expect("generated");
+    }
+    let text = fs::read_to_string(folder.path().join("files").join("bol.bvh")).expect("read");
+    let (header, frames) = text.split_once("Frame Time:").expect("frames");
+    let (rate, frames) = frames.split_once('\n').expect("frames");
+    let count = frames.lines().filter(|line| !line.trim().is_empty()).count();
+    let header = header.replace(&format!("Frames: {count}"), &format!("Frames: {}", 2 * count));
+    let file = folder.path().join("twice.bvh");
+    fs::write(&file, format!("{header}Frame Time:{rate}\n{frames}\n{frames}")).expect("written");
+    let options = ImportOptions {
+        signer: Some("Elsa".into()),
+        ..ImportOptions::default()
+    };
+    let progress = &mut ProgressReceiver::silent_progress();
+    let report = corpus.import_paths(&[file], &options, progress).expect("imported");
+    let said: Vec<&String> = report.files[0]
+        .findings
+        .iter()
+        .map(|finding| &finding.message)
+        .collect();
+    assert!(said.iter().any(|text| text.contains("\"bol\", of Ada")), "{said:?}");
+    let yes = ConsentChange {
+        licence: Some("CC BY 4.0".into()),
+        ..all(ConsentAudience::Public)
+    };
+    refuse(&mut corpus, "signer:Elsa", &yes);
+    let no_movement = ConsentChange {
+        movement: Some(Some(ConsentAudience::Nobody)),
+        ..ConsentChange::default()
+    };
+    refuse(&mut corpus, "recording:bol", &no_movement);
+    let connection = corpus.store.read_connection();
+    let permissions = PublishPermissions::read_publish_permissions(connection, None).expect("read");
+    for name in near.map(|(gloss, _)| gloss).into_iter().chain(["twice"]) {
+        let found = stored_recordings::recording_named(connection, name).expect("read");
+        let terms = permissions.recording_publish_terms(found.expect("there").id, ConsentKind::Movement);
+        assert_eq!(terms, Err(WithheldReason::NotPublic), "{name}");
+    }
+}
+
+#[test]
 fn terms_are_those_of_all_contributors_and_are_never_stamped_over_them() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut corpus = copies(folder.path());

@@ -7,7 +7,7 @@ use crate::db::cached_sql::CachedSql;
 use crate::error::CorpusResult;
 
 /// The tables whose rows are recorded, and for each the columns that refer to a row with a uid.
-pub(in crate::db) const TRACKED_TABLE_REFERENCES: [(&str, &[(&str, &str)]); 27] = [
+pub(in crate::db) const TRACKED_TABLE_REFERENCES: [(&str, &[(&str, &str)]); 28] = [
     ("meta", &[]),
     ("lexicon", &[]),
     ("signer", &[]),
@@ -35,6 +35,7 @@ pub(in crate::db) const TRACKED_TABLE_REFERENCES: [(&str, &[(&str, &str)]); 27] 
     ("annotation", &[("tier_id", "tier"), ("parent_id", "annotation")]),
     ("sign", &[("lexicon_id", "lexicon")]),
     ("sign_text", &[("sign_id", "sign")]),
+    ("sign_relation", &[("sign_id", "sign"), ("related_id", "sign")]),
     (
         "token",
         &[

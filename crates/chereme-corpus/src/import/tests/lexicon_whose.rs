@@ -100,6 +100,81 @@ fn a_newer_version_in_another_folder_updates_the_lexicon_that_is_named() {
 }
 
 #[test]
+fn a_lexicon_that_was_named_keeps_its_entries_whatever_lies_at_the_same_place() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = Corpus::create_corpus(&folder.path().join("c.chereme"), "test").expect("made");
+    let path = folder.path().join("export.csv");
+    let texts = [
+        "Gloss,id,Handshape\nBOOK,7,B\nTREE,9,5\n",
+        "Gloss,id,Handshape\nBOOK,7,A\nHOUSE,9,U\n",
+    ];
+    // The last one has the bytes of the first.
+    for (lexicon, text) in [
+        ("ASL", texts[0]),
+        ("BSL", texts[1]),
+        ("LSF", texts[0]),
+        ("ASL", texts[0]),
+    ] {
+        fs::write(&path, text).expect("written");
+        let options = ImportOptions {
+            lexicon: Some(lexicon.to_owned()),
+            ..ImportOptions::default()
+        };
+        import_with(&mut corpus, &path, &options);
+    }
+    assert_eq!(found(&mut corpus, "lexicon=ASL configuration=B,5"), ["BOOK", "TREE"]);
+    assert_eq!(found(&mut corpus, "lexicon=BSL configuration=A,U"), ["BOOK", "HOUSE"]);
+    assert_eq!(found(&mut corpus, "lexicon=LSF"), ["BOOK", "TREE"]);
+    assert_eq!(found(&mut corpus, "gloss=*").len(), 6);
+}
+
+#[test]
+fn an_entry_with_an_id_stays_the_same_sign_under_another_gloss() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = Corpus::create_corpus(&folder.path().join("c.chereme"), "test").expect("made");
+    let path = folder.path().join("asl.csv");
+    fs::write(&path, "Gloss,id,Handshape\nBOOK,17,B\nTREE,23,5\nHOUSE,30,U\n").expect("written");
+    import_file(&mut corpus, &path);
+    let sign = |corpus: &Corpus, gloss: &str| corpus.sign_details(&crate::RowName::Text(gloss.into())).expect(gloss);
+    let [book, tree] = ["BOOK", "TREE"].map(|gloss| sign(&corpus, gloss).id);
+    for (id, gloss, notes) in [(book, Some("BOOKS"), "n1"), (tree, None, "n2")] {
+        let change = crate::SignChange {
+            gloss: gloss.map(str::to_owned),
+            notes: Some(Some(notes.into())),
+            ..crate::SignChange::default()
+        };
+        corpus
+            .change_sign(&crate::RowName::Number(id), &change)
+            .expect("changed");
+    }
+    let mut again = |text: &str| {
+        fs::write(&path, text).expect("written");
+        let findings = import_file(&mut corpus, &path).findings;
+        let said = findings.into_iter().map(|finding| finding.message);
+        let signs = ["BOOKS", "TREES"].map(|gloss| {
+            let sign = sign(&corpus, gloss);
+            (sign.id, sign.notes, sign.tokens.len())
+        });
+        (
+            said.filter(|text| text.contains("another gloss")).collect::<Vec<_>>(),
+            signs,
+        )
+    };
+    let (said, signs) = again("Gloss,id,Handshape\nBOOK,17,A\nTREES,23,5\nHOUSE,30,U\n");
+    let kept = [(book, Some("n1".to_owned()), 1), (tree, Some("n2".to_owned()), 1)];
+    assert_eq!(signs, kept);
+    assert_eq!(
+        said,
+        ["signs with another gloss in the table, which stay the same signs: 1 (TREE is TREES)"]
+    );
+    // Where both gave it another name, that of the person stays, and the finding has both.
+    let (said, signs) = again("Gloss,id,Handshape\nVOLUME,17,A\nTREES,23,5\nHOUSE,30,U\n");
+    assert_eq!(signs, kept);
+    assert!(said[0].ends_with("1 (BOOKS (the table says VOLUME))"), "{said:?}");
+    assert_eq!(found(&mut corpus, "gloss=*"), ["BOOKS", "HOUSE", "TREES"]);
+}
+
+#[test]
 fn one_gloss_in_two_tables_is_two_signs() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut corpus = corpus_of_two(folder.path());

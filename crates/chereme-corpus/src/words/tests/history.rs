@@ -131,6 +131,10 @@ fn all_effects() -> Vec<OperationEffect> {
             gloss: gloss.clone(),
         },
         Effect::ChangePerson { person: text("Ada") },
+        Effect::RelateSigns {
+            count: 2,
+            relation: "variant".into(),
+        },
         Effect::UniteLexicons {
             names: vec![text("A")],
             lexicon: text("B"),

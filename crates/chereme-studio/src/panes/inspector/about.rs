@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use chereme_corpus::{
     ConsentAudience, ConsentChange, CorpusAddress, MediaChange, PersonAttribute, PersonChange, PersonConsent,
-    PersonContents, RecordingChange, RecordingDetails, RecordingGlance, RowName, SignChange, SignDetails, SignerChange,
-    SignerDetails, TrackKind, ValueDetails,
+    PersonContents, RecordingChange, RecordingDetails, RecordingGlance, RelationChange, RowName, SignChange,
+    SignDetails, SignerChange, SignerDetails, TrackKind, ValueDetails,
 };
 use chereme_motion::{BodySide, RecordingInstant};
 use chereme_sign::ComponentInventory;
@@ -477,6 +477,32 @@ pub(super) fn show_sign_details(
                 }
             });
             ui.end_row();
+        }
+        for relation in &sign.relations {
+            ui.weak(relation.relation_words(seen.language));
+            ui.horizontal(|ui| {
+                show_thing_link(it, ui, &relation.related, InspectedThing::Sign(relation.related_id));
+                let tip = fill_text_braces(seen.say_text(words::REMOVE), &[("what", &relation.related)]);
+                // What a recipe says goes with the recipe alone.
+                let is_stated = relation.source.as_deref() != Some("recipe");
+                if is_stated && ui.small_button("×").on_hover_text(tip).clicked() {
+                    let (name, other) = (relation.relation.clone(), RowName::Number(relation.related_id));
+                    let remove = RelationChange::Remove;
+                    out.request_work(recordings_jobs::change_relation_job(sign.id, name, other, remove));
+                }
+            });
+            ui.end_row();
+        }
+        let key = Id::unique(("sign relation", sign.id));
+        if let Some(text) = show_editable_line(ui, seen, key, words::RELATION_NEW, "") {
+            let (name, other) = text.trim().split_once(' ').unwrap_or((text.trim(), ""));
+            let (name, other) = (name.to_owned(), RowName::Text(other.trim().to_owned()));
+            out.request_work(recordings_jobs::change_relation_job(
+                sign.id,
+                name,
+                other,
+                RelationChange::Add,
+            ));
         }
         let key = Id::unique(("sign text", sign.id));
         let language = seen.language.language_code();
