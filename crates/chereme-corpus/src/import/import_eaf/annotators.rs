@@ -1,6 +1,6 @@
 //! Keeps the tiers of two annotators apart whose files give them one name.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_formats::eaf::eaf_convert::{AnnotationTranscript, TranscriptTier};
 use chereme_formats::roles::TierGuess;
@@ -23,7 +23,9 @@ pub(super) fn keep_annotators_apart(
     let rows = stored_tiers::load_tier_rows(job.connection, recording)?;
     let standing: BTreeMap<&str, &TierRow> = rows.iter().map(|row| (row.name.as_str(), row)).collect();
     let mut notes = Vec::new();
-    for (tier, guess) in transcript.tiers.iter_mut().zip(guesses) {
+    let mut set_apart = BTreeSet::new();
+    for place in transcript.tiers_parents_first() {
+        let (tier, guess) = (&mut transcript.tiers[place], &guesses[place]);
         let Some((row, other)) = standing
             .get(&*tier.name)
             .and_then(|row| Some((*row, row.annotator.as_ref()?)))
@@ -38,10 +40,13 @@ pub(super) fn keep_annotators_apart(
         let is_known = standing
             .get(&*apart)
             .is_some_and(|row| row.annotator.as_ref() == Some(&annotator));
+        // Annotations of one person stay below that person's.
+        let is_below = tier.parent.is_some_and(|parent| set_apart.contains(&parent));
         // A file whose tier went to another person brings no second tier.
-        if !is_known && (base.is_some() || says_the_same(job, tier, guess, row)?) {
+        if !is_known && (base.is_some() || !is_below && says_the_same(job, tier, guess, row)?) {
             continue;
         }
+        set_apart.insert(place);
         if !is_known {
             notes.push(ReportFinding::finding_note(format!(
                 "the tier {:?} is of {other}; that of {annotator} is called {apart:?} here",

@@ -222,3 +222,50 @@ fn a_table_is_one_of_annotations_only_if_its_titles_say_so() {
         );
     }
 }
+
+#[test]
+fn the_file_of_a_second_annotator_brings_readings_of_its_own() {
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("c.chereme");
+    let by = |who: &str, rows: &[(&str, i64, i64, &str)]| {
+        eaf(rows).replace("TIER_ID=", &format!("ANNOTATOR=\"{who}\" TIER_ID="))
+    };
+    let glosses = ("Gloss", 0, 1000, "BOOK");
+    let anna = desk.file(
+        "anna.eaf",
+        &by("Anna", &[glosses, ("Configuration right", 0, 1000, "B")]),
+    );
+    take(&mut corpus, &[anna], &choose(OwnEdits::Ask));
+    let options = ImportOptions {
+        into: Some(crate::RowName::Text("anna".into())),
+        ..choose(OwnEdits::Ask)
+    };
+    // The second version of the file updates the second annotator's tier, too.
+    for (value, edits) in [("C", OwnEdits::Ask), ("S", OwnEdits::Ask)] {
+        let ben = desk.file(
+            "ben.eaf",
+            &by("Ben", &[glosses, ("Configuration right", 0, 1000, value)]),
+        );
+        let options = ImportOptions {
+            own_edits: edits,
+            ..options.clone()
+        };
+        let report = take(&mut corpus, &[ben], &options);
+        assert!(!report.has_refusals(), "{report:?}");
+        let wanted = [
+            "1 Gloss 0-1000 BOOK".to_owned(),
+            "1 Configuration right 0-1000 B".to_owned(),
+            format!("1 Configuration right (Ben) 0-1000 {value}"),
+        ];
+        assert_eq!(annotations(&corpus), wanted);
+    }
+    let mut count = |query: &str| {
+        corpus
+            .search_tokens(query, &crate::SearchOptions::default())
+            .expect(query)
+            .total
+    };
+    assert_eq!(count("disputed:yes"), 1);
+    assert_eq!(count("configuration=S{by=Ben}"), 1);
+    assert_eq!(count("configuration=B{by=Anna}"), 1);
+}
