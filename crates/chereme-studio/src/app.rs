@@ -132,7 +132,7 @@ impl Studio {
                 ctx.request_repaint();
             }
         });
-        let mut out = CommandOutbox::default();
+        let out = CommandOutbox::default();
         if let Some(path) = corpus {
             out.send_command(WindowCommand::Begin(CorpusOpening::Open(path)));
         }
@@ -189,10 +189,10 @@ impl Studio {
         self.receive_thread_results();
         self.stay_with_the_corpus(&ctx);
         self.name_window(&ctx);
-        self.panes.search.show_animated_hit(&mut self.out);
-        self.panes.library.show_chosen_notated_sign(&mut self.out);
-        self.panes.map.show_animated_map_sign(&mut self.out);
-        self.panes.measures.show_animated_measured_sign(&mut self.out);
+        self.panes.search.show_animated_hit(&self.out);
+        self.panes.library.show_chosen_notated_sign(&self.out);
+        self.panes.map.show_animated_map_sign(&self.out);
+        self.panes.measures.show_animated_measured_sign(&self.out);
         if self.panes.recombine.has_news() {
             // The pictures requested in this frame must show the new movement.
             self.keep_up(&ctx);
@@ -295,6 +295,7 @@ impl Studio {
             language: self.settings.language,
             dark: theme::is_dark(ctx),
             running: &self.desk.as_ref()?.running,
+            out: &self.out,
         })
     }
 
@@ -462,11 +463,11 @@ impl Studio {
                 language: settings.language,
                 dark: theme::is_dark(ui.ctx()),
                 running: &desk.running,
+                out,
             };
             let mut workbench = TileWorkbench {
                 panes,
                 seen,
-                out,
                 pane,
                 cursor,
                 under: None,
@@ -479,7 +480,7 @@ impl Studio {
             if let Some(tile) = chosen {
                 tree.make_active(|id, _| id == tile);
             }
-            carry::show_carried_sign(ui.ctx(), &seen, out);
+            carry::show_carried_sign(ui.ctx(), &seen);
             if let Some(pane) = sprung.pane_to_open(under, ui.input(|input| input.time)) {
                 layout::bring_pane_to_front(tree, pane);
             }

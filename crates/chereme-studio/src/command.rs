@@ -1,5 +1,6 @@
 //! Every possible request, as one value: menus, keys, palette and panes send the same commands; the requests of a frame.
 
+use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -208,37 +209,37 @@ pub(crate) struct DraggedToken {
 /// The requests of a frame; carried out after it, in order.
 #[derive(Debug, Default)]
 pub(crate) struct CommandOutbox {
-    commands: Vec<WindowCommand>,
-    next: u64,
+    commands: RefCell<Vec<WindowCommand>>,
+    next: Cell<u64>,
 }
 
 impl CommandOutbox {
     /// Returns an empty outbox that continues the work numbers of `other`.
     pub(crate) fn after_outbox(other: &Self) -> Self {
         Self {
-            commands: Vec::new(),
-            next: other.next,
+            next: other.next.clone(),
+            ..Self::default()
         }
     }
 
-    pub(crate) fn send_command(&mut self, command: WindowCommand) {
-        self.commands.push(command);
+    pub(crate) fn send_command(&self, command: WindowCommand) {
+        self.commands.borrow_mut().push(command);
     }
 
     /// Requests a job, and returns the id that its outcome carries.
-    pub(crate) fn request_work(&mut self, job: CorpusJob) -> WorkId {
-        self.next += 1;
-        let id = WorkId(self.next);
-        self.commands.push(WindowCommand::Work(id, job));
+    pub(crate) fn request_work(&self, job: CorpusJob) -> WorkId {
+        self.next.set(self.next.get() + 1);
+        let id = WorkId(self.next.get());
+        self.send_command(WindowCommand::Work(id, job));
         id
     }
 
     /// Moves the playhead.
-    pub(crate) fn send_seek(&mut self, at: RecordingInstant) {
-        self.commands.push(WindowCommand::Seek(at));
+    pub(crate) fn send_seek(&self, at: RecordingInstant) {
+        self.send_command(WindowCommand::Seek(at));
     }
 
-    pub(crate) fn take_commands(&mut self) -> Vec<WindowCommand> {
-        std::mem::take(&mut self.commands)
+    pub(crate) fn take_commands(&self) -> Vec<WindowCommand> {
+        self.commands.take()
     }
 }

@@ -1,21 +1,24 @@
 //! The input of a pane while it draws.
 
-use crate::model::display_state::DisplayState;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use chereme_motion::RecordingInstant;
+
+use crate::command::{CommandOutbox, WindowCommand};
 use crate::film::RecordingFilms;
 use crate::keys::ActionKeys;
 use crate::miniatures::MiniatureFigures;
 use crate::model::CorpusSnapshot;
+use crate::model::display_state::DisplayState;
 use crate::model::reel::MovementReel;
 use crate::settings::StudioSettings;
 use crate::theme::ThemeColours;
 use crate::words::{InterfaceLanguage, InterfaceText};
 use crate::work::desk::RunningWork;
-use crate::work::{WorkId, WorkProgress};
+use crate::work::{CorpusJob, WorkId, WorkProgress};
 
-/// The read-only input of a pane while it draws.
+/// The read-only input of a pane while it draws, and the outbox for what it requests.
 #[derive(Clone, Copy)]
 pub(crate) struct PaneInput<'a> {
     /// The file of the corpus.
@@ -33,9 +36,25 @@ pub(crate) struct PaneInput<'a> {
     pub(crate) dark: bool,
     /// Work that has been started and has not ended.
     pub(crate) running: &'a BTreeMap<WorkId, RunningWork>,
+    /// The requests of this frame.
+    pub(crate) out: &'a CommandOutbox,
 }
 
 impl PaneInput<'_> {
+    pub(crate) fn send_command(&self, command: WindowCommand) {
+        self.out.send_command(command);
+    }
+
+    /// Requests a job, and returns the id that its outcome carries.
+    pub(crate) fn request_work(&self, job: CorpusJob) -> WorkId {
+        self.out.request_work(job)
+    }
+
+    /// Moves the playhead.
+    pub(crate) fn send_seek(&self, at: RecordingInstant) {
+        self.out.send_seek(at);
+    }
+
     /// Returns a text in the window's language.
     pub(crate) fn say_text(&self, text: InterfaceText) -> &'static str {
         text.text_in_language(self.language)

@@ -7,7 +7,6 @@ use eframe::egui::{
 };
 use egui_tiles::{Behavior, SimplificationOptions, Tabs, Tile, TileId, Tiles, UiResponse};
 
-use crate::command::CommandOutbox;
 use crate::context::PaneInput;
 use crate::layout::PaneKind;
 use crate::panes::{PaneSet, carry, focused_widget};
@@ -17,7 +16,6 @@ use crate::words::shell as words;
 pub(crate) struct TileWorkbench<'a> {
     pub(crate) panes: &'a mut PaneSet,
     pub(crate) seen: PaneInput<'a>,
-    pub(crate) out: &'a mut CommandOutbox,
     pub(crate) pane: &'a mut Option<PaneKind>,
     /// The text field that has the cursor, or had it when the mouse was pressed, and its pane.
     pub(crate) cursor: &'a mut Option<(PaneKind, Id)>,
@@ -101,7 +99,7 @@ impl Behavior<PaneKind> for TileWorkbench<'_> {
             }
             let before = ui.output(|output| output.events.len());
             kind.note_sight(ui.ctx());
-            self.panes.get_mut(*kind).ui(ui, &self.seen, self.out);
+            self.panes.get_mut(*kind).ui(ui, &self.seen);
             ui.allocate_space(ui.available_size());
             self.keep_cursor(ui, rect, *kind, before);
             if *self.pane == Some(*kind) {

@@ -9,12 +9,11 @@ impl Studio {
     fn draw_corpus_overlays(&mut self, ctx: &Context) {
         let mut export = std::mem::take(&mut self.overlays.export);
         let mut tiers = std::mem::take(&mut self.overlays.tiers);
-        let mut out = std::mem::take(&mut self.out);
         if let (Some(seen), Some(desk)) = (self.pane_input(ctx), &self.desk) {
-            export.ui(ctx, &seen, &self.settings, &desk.path, &mut out);
-            tiers.ui(ctx, &seen, &mut out);
+            export.ui(ctx, &seen, &self.settings, &desk.path);
+            tiers.ui(ctx, &seen);
         }
-        (self.overlays.export, self.overlays.tiers, self.out) = (export, tiers, out);
+        (self.overlays.export, self.overlays.tiers) = (export, tiers);
     }
 
     /// Draws the open ones.

@@ -130,7 +130,7 @@ impl Studio {
                 self.bring_pane_forward(PaneKind::Recombine);
             }
             WindowCommand::Find(query) => {
-                self.panes.search.search_for_query(query, &mut self.out);
+                self.panes.search.search_for_query(query, &self.out);
                 self.bring_pane_forward(PaneKind::Search);
             }
             WindowCommand::Recipe(recipe, of) => self.show_recipe_text(&recipe, of.clone(), of),
@@ -258,12 +258,11 @@ impl Studio {
             return;
         }
         let mut panes = std::mem::take(&mut self.panes);
-        let mut out = std::mem::take(&mut self.out);
         if let Some(seen) = self.pane_input(ctx) {
             let now = ctx.input(|input| input.time);
-            panes.recombine.keep_up(&seen, now, &mut out);
+            panes.recombine.keep_up(&seen, now);
         }
-        (self.panes, self.out) = (panes, out);
+        self.panes = panes;
     }
 
     /// Undoes or redoes one step: of the recipe if it changed last and is in sight, else of the corpus.
@@ -321,14 +320,13 @@ impl Studio {
     /// Has a pane carry out an action.
     fn act_in(&mut self, pane: PaneKind, action: Action, ctx: &Context) {
         let mut panes = std::mem::take(&mut self.panes);
-        let mut out = std::mem::take(&mut self.out);
         if let Some(seen) = self.pane_input(ctx) {
-            let acted = panes.get_mut(pane).carry_out_pane_action(action, &seen, &mut out);
+            let acted = panes.get_mut(pane).carry_out_pane_action(action, &seen);
             if let ActionOutcome::Cannot(text) = acted {
                 self.overlays.notices.add_warning(self.text_with_keys(text));
             }
         }
-        (self.panes, self.out) = (panes, out);
+        self.panes = panes;
     }
 
     fn act_on_window(&mut self, action: Action, ctx: &Context) {

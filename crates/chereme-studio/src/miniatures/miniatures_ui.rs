@@ -49,7 +49,7 @@ impl MiniatureFigures {
         &self,
         ui: &Ui,
         language: InterfaceLanguage,
-        out: &mut CommandOutbox,
+        out: &CommandOutbox,
         cell: &MiniatureCell,
         rect: Rect,
     ) {
@@ -158,7 +158,7 @@ impl MiniatureFigures {
         state: &mut DrawingBoardState,
         source: &MiniatureSource,
         motion: &MiniatureMotion,
-        out: &mut CommandOutbox,
+        out: &CommandOutbox,
     ) {
         if let MiniatureMotion::Made(made) = motion {
             return self.load_made(state, source, made);

@@ -5,7 +5,7 @@
 //! ```text
 //! let motion = MiniatureMotion::Span(recording, span);
 //! let cell = MiniatureCell::new(motion, size).with_playing_clock(miniatures::figure_loop_clock(ui));
-//! seen.little.paint_figure(ui, seen.language, out, &cell, rect);
+//! seen.little.paint_figure(ui, seen.language, &cell, rect);
 //! ```
 //!
 //! Movement is loaded on its own lane and drawn by its own thread, the middle picture first, then ever finer steps;

@@ -396,7 +396,7 @@ impl NoticeBoard {
         });
     }
 
-    pub(crate) fn ui(&mut self, ctx: &Context, language: InterfaceLanguage, out: &mut CommandOutbox) {
+    pub(crate) fn ui(&mut self, ctx: &Context, language: InterfaceLanguage, out: &CommandOutbox) {
         let now = ctx.input(|input| input.time);
         for notice in &mut self.all {
             // A notice that came between two frames lasts from the first frame that shows it.
@@ -524,8 +524,8 @@ mod tests {
             .with_size(vec2(640.0, 420.0))
             .build_ui_state(
                 |ui, notices: &mut NoticeBoard| {
-                    let mut out = CommandOutbox::default();
-                    notices.ui(ui.ctx(), InterfaceLanguage::English, &mut out);
+                    let out = CommandOutbox::default();
+                    notices.ui(ui.ctx(), InterfaceLanguage::English, &out);
                 },
                 notices,
             );

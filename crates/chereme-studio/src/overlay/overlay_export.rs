@@ -155,31 +155,17 @@ impl ExportWindow {
         all
     }
 
-    pub(crate) fn ui(
-        &mut self,
-        ctx: &Context,
-        seen: &PaneInput<'_>,
-        settings: &StudioSettings,
-        corpus: &Path,
-        out: &mut CommandOutbox,
-    ) {
+    pub(crate) fn ui(&mut self, ctx: &Context, seen: &PaneInput<'_>, settings: &StudioSettings, corpus: &Path) {
         if !self.open {
             return;
         }
         let open = super::show_form_window(ctx, seen.say_text(words::TITLE), "export", |ui| {
-            self.show_export_form(ui, seen, settings, corpus, out);
+            self.show_export_form(ui, seen, settings, corpus);
         });
         self.open = open && !(self.asked.is_none() && super::take_escape_key(ctx));
     }
 
-    fn show_export_form(
-        &mut self,
-        ui: &mut Ui,
-        seen: &PaneInput<'_>,
-        settings: &StudioSettings,
-        corpus: &Path,
-        out: &mut CommandOutbox,
-    ) {
+    fn show_export_form(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, settings: &StudioSettings, corpus: &Path) {
         let choices = self.exportable_objects(seen);
         if self.what.as_ref().is_none_or(|what| !choices.contains(what)) {
             self.what = choices.first().cloned();
@@ -260,7 +246,7 @@ impl ExportWindow {
         }
         ui.checkbox(&mut self.replace, seen.say_text(words::REPLACE));
         ui.add_space(4.0);
-        self.show_export_buttons(ui, seen, settings, &what, entered, out);
+        self.show_export_buttons(ui, seen, settings, &what, entered);
         if let Some(wrong) = &self.wrong {
             wrong.show_failure(ui, seen.language, seen.pane_colours().trouble);
         }
@@ -292,16 +278,15 @@ impl ExportWindow {
         settings: &StudioSettings,
         what: &ExportObject,
         entered: bool,
-        out: &mut CommandOutbox,
     ) {
         ui.horizontal(|ui| {
-            if show_running_work(ui, seen, self.asked, out) {
+            if show_running_work(ui, seen, self.asked) {
                 return;
             }
             let ready = !self.to.trim().is_empty();
             let write = Button::new(RichText::new(seen.say_text(words::WRITE)).strong());
             if ui.add_enabled(ready, write).clicked() || (ready && entered) {
-                self.write_export(settings, what, out);
+                self.write_export(settings, what, seen.out);
             }
         });
     }
@@ -312,7 +297,7 @@ impl ExportWindow {
         MovementForm::read_movement_form(avatar, None, false).unwrap_or_default()
     }
 
-    fn write_export(&mut self, settings: &StudioSettings, what: &ExportObject, out: &mut CommandOutbox) {
+    fn write_export(&mut self, settings: &StudioSettings, what: &ExportObject, out: &CommandOutbox) {
         let to = PathBuf::from(self.to.trim());
         let options = ExportOptions {
             force: self.replace,

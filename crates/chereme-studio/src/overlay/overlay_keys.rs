@@ -42,7 +42,7 @@ impl KeysHelp {
         self.open && self.listening.is_some()
     }
 
-    pub(crate) fn ui(&mut self, ctx: &Context, keys: &ActionKeys, settings: &StudioSettings, out: &mut CommandOutbox) {
+    pub(crate) fn ui(&mut self, ctx: &Context, keys: &ActionKeys, settings: &StudioSettings, out: &CommandOutbox) {
         if !self.open {
             return;
         }
@@ -142,7 +142,7 @@ impl KeysHelp {
     }
 
     /// Assigns the next pressed key to the waiting action: Escape cancels, Backspace removes the action's keys.
-    fn listen_for_new_key(&mut self, ctx: &Context, settings: &StudioSettings, out: &mut CommandOutbox) {
+    fn listen_for_new_key(&mut self, ctx: &Context, settings: &StudioSettings, out: &CommandOutbox) {
         let Some(action) = self.listening else { return };
         let pressed = ctx.input_mut(|input| {
             let index = input
@@ -223,7 +223,7 @@ fn mouse(ui: &mut Ui, menu: ActionMenu, language: InterfaceLanguage) {
         });
 }
 
-fn keymaps(ui: &mut Ui, settings: &StudioSettings, out: &mut CommandOutbox) {
+fn keymaps(ui: &mut Ui, settings: &StudioSettings, out: &CommandOutbox) {
     let language = settings.language;
     let called = |keymap: DefaultKeymap| {
         let entry = DefaultKeymap::ALL_KEYMAPS.iter().find(|(other, _)| *other == keymap);

@@ -51,7 +51,7 @@ impl ActionPalette {
         keys: &ActionKeys,
         language: InterfaceLanguage,
         corpus: bool,
-        out: &mut CommandOutbox,
+        out: &CommandOutbox,
     ) {
         if !self.open {
             return;

@@ -22,7 +22,7 @@ impl SettingsWindow {
         self.open = !self.open;
     }
 
-    pub(crate) fn ui(&mut self, ctx: &Context, settings: &StudioSettings, out: &mut CommandOutbox) {
+    pub(crate) fn ui(&mut self, ctx: &Context, settings: &StudioSettings, out: &CommandOutbox) {
         if !self.open {
             return;
         }

@@ -5,7 +5,6 @@ use chereme_corpus::{CorpusError, TierRoundOptions, TierRoundReport, TierRoundRo
 use eframe::egui::{Button, Checkbox, Context, Grid, Label, RichText, Role, ScrollArea, TextStyle, Ui, WidgetInfo};
 
 use super::tier_round_form::{RoundRecordings, RoundWorkKind, TierRoundForm, TierTextProperty};
-use crate::command::CommandOutbox;
 use crate::context::PaneInput;
 use crate::panes::show_running_work;
 use crate::panes::timeline::tier_box::{
@@ -74,7 +73,7 @@ impl TierRoundWindow {
         }
     }
 
-    pub(crate) fn ui(&mut self, ctx: &Context, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    pub(crate) fn ui(&mut self, ctx: &Context, seen: &PaneInput<'_>) {
         if !self.open {
             return;
         }
@@ -83,7 +82,7 @@ impl TierRoundWindow {
             ui.add_space(6.0);
             show_work(ui, seen, &mut self.form);
             ui.add_space(6.0);
-            self.show_buttons(ui, seen, out);
+            self.show_buttons(ui, seen);
             self.show_result(ui, seen);
         });
         self.open = open && !(self.asked.is_none() && super::take_escape_key(ctx));
@@ -96,14 +95,14 @@ impl TierRoundWindow {
         (tried.form == self.form && tried.generation == generation).then_some(&tried.report)
     }
 
-    fn show_buttons(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn show_buttons(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         ui.checkbox(&mut self.skip, seen.say_text(words::SKIP));
         let (changing, refusing) = self.valid_trial(seen).map_or((0, 0), count_outcomes);
         let is_ready = self.form.round_scope().is_some() && self.form.round_work().is_some();
         let may_do = changing > 0 && (refusing == 0 || self.skip) && !seen.snapshot.is_read_only();
         let mut pressed = None;
         ui.horizontal(|ui| {
-            if show_running_work(ui, seen, self.asked.as_ref().map(|(id, ..)| *id), out) {
+            if show_running_work(ui, seen, self.asked.as_ref().map(|(id, ..)| *id)) {
                 return;
             }
             for (text, is_enabled, dry_run) in [(words::TRY, is_ready, true), (words::CARRY_OUT, may_do, false)] {
@@ -118,7 +117,7 @@ impl TierRoundWindow {
                 dry_run,
                 skip: self.skip,
             };
-            let id = out.request_work(editing::work_on_tiers_job(scope, work, options));
+            let id = seen.request_work(editing::work_on_tiers_job(scope, work, options));
             let generation = seen.snapshot.overview.generation;
             self.asked = Some((id, self.form.clone(), generation));
             self.forget_result();

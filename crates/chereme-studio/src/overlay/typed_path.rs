@@ -51,7 +51,7 @@ impl TypedPath {
     }
 
     /// Shows the window while it is open; Enter and its button use the path, Escape closes it.
-    pub(crate) fn ui(&mut self, ctx: &Context, language: InterfaceLanguage, out: &mut CommandOutbox) {
+    pub(crate) fn ui(&mut self, ctx: &Context, language: InterfaceLanguage, out: &CommandOutbox) {
         let Some(what) = self.what else {
             return;
         };

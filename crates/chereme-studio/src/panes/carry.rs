@@ -6,7 +6,7 @@ use eframe::egui::{
 };
 
 use crate::action::Action;
-use crate::command::{CommandOutbox, DraggedToken, WindowCommand};
+use crate::command::{DraggedToken, WindowCommand};
 use crate::context::PaneInput;
 use crate::layout::PaneKind;
 use crate::miniatures::{self, MiniatureCell, MiniatureMotion};
@@ -61,7 +61,7 @@ pub(crate) fn take_dropped_sign(ui: &Ui, seen: &PaneInput<'_>, rect: Rect) -> Op
 }
 
 /// Draws the dragged sign under the pointer, above the panes.
-pub(crate) fn show_carried_sign(ctx: &Context, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+pub(crate) fn show_carried_sign(ctx: &Context, seen: &PaneInput<'_>) {
     if !is_carrying(ctx) {
         return;
     }
@@ -83,7 +83,7 @@ pub(crate) fn show_carried_sign(ctx: &Context, seen: &PaneInput<'_>, out: &mut C
                     ui.allocate_exact_size(Vec2::splat(CARRIED_FIGURE_SIDE), eframe::egui::Sense::hover());
                 let cell =
                     MiniatureCell::new(motion, rect.size()).with_playing_clock(miniatures::figure_loop_clock(ui));
-                seen.little.paint_figure(ui, seen.language, out, &cell, rect);
+                seen.little.paint_figure(ui, seen.language, seen.out, &cell, rect);
             }
             ui.label(picture.gloss);
         });
@@ -115,18 +115,11 @@ impl TabSpring {
 ///
 /// `recording` is the recording that contains the sign; if it was made from a recipe, the menu can open that recipe
 /// again.
-pub(crate) fn show_sign_menu(
-    ui: &mut Ui,
-    seen: &PaneInput<'_>,
-    token: i64,
-    gloss: &str,
-    recording: Option<i64>,
-    out: &mut CommandOutbox,
-) {
+pub(crate) fn show_sign_menu(ui: &mut Ui, seen: &PaneInput<'_>, token: i64, gloss: &str, recording: Option<i64>) {
     let mut entry = |name: &str, command: WindowCommand, keys: String| {
         let button = eframe::egui::Button::new(name).shortcut_text(keys);
         if ui.add(button).clicked() {
-            out.send_command(command);
+            seen.send_command(command);
             ui.close();
         }
     };

@@ -28,7 +28,7 @@ const FILM_GAP_POINTS: f32 = 6.0;
 const MAX_PICTURE_PIXELS: [usize; 2] = [1280, 1280];
 
 /// Shows films next to each other, or above each other if that makes them larger.
-pub(crate) fn show_film_screens(ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox, rect: Rect) {
+pub(crate) fn show_film_screens(ui: &mut Ui, seen: &PaneInput<'_>, rect: Rect) {
     let mut screens = seen.films.borrow_screens();
     // Films that cannot be shown take a line each, below those that can.
     let shown = screens.iter().filter(|screen| !screen.is_missing()).count();
@@ -42,7 +42,7 @@ pub(crate) fn show_film_screens(ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Com
     if shown > 0 {
         screens.retain_mut(|screen| {
             if screen.is_missing() {
-                show_missing_film_line(screen, ui, seen, out, line);
+                show_missing_film_line(screen, ui, seen, line);
                 line = line.translate(vec2(0.0, CONTROL_LINE_HEIGHT));
             }
             !screen.is_missing()
@@ -65,7 +65,7 @@ pub(crate) fn show_film_screens(ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Com
             row as f32 * (size.y + FILM_GAP_POINTS),
         );
         let cell = Rect::from_min_size(rect.min + corner, size);
-        show_one_film(screen, ui, seen, out, cell);
+        show_one_film(screen, ui, seen, cell);
     }
 }
 
@@ -80,7 +80,7 @@ fn best_column_count(count: usize, room: egui::Vec2) -> usize {
     best.unwrap_or(1)
 }
 
-fn show_one_film(screen: &mut FilmScreen, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox, cell: Rect) {
+fn show_one_film(screen: &mut FilmScreen, ui: &mut Ui, seen: &PaneInput<'_>, cell: Rect) {
     let player = &seen.shown.player;
     let current_time = player.player_playhead();
     let line = Rect::from_min_max(pos2(cell.left(), cell.bottom() - CONTROL_LINE_HEIGHT), cell.max);
@@ -120,9 +120,9 @@ fn show_one_film(screen: &mut FilmScreen, ui: &mut Ui, seen: &PaneInput<'_>, out
     ui.scope_builder(builder, |ui| {
         ui.set_clip_rect(line.intersect(ui.clip_rect()));
         ui.horizontal(|ui| match screen.news.known {
-            FilmFileState::Open(..) => controls(screen, ui, seen, out, current_time),
+            FilmFileState::Open(..) => controls(screen, ui, seen, current_time),
             FilmFileState::Coming => {}
-            _ => offer_missing_film_remedies(screen, ui, seen, out),
+            _ => offer_missing_film_remedies(screen, ui, seen),
         });
     });
 }
@@ -150,13 +150,7 @@ fn unshown_film_reason(screen: &FilmScreen, seen: &PaneInput<'_>) -> String {
 }
 
 /// Shows in one line that a film is missing, with the remedies; the reason is in its tip.
-fn show_missing_film_line(
-    screen: &mut FilmScreen,
-    ui: &mut Ui,
-    seen: &PaneInput<'_>,
-    out: &mut CommandOutbox,
-    line: Rect,
-) {
+fn show_missing_film_line(screen: &mut FilmScreen, ui: &mut Ui, seen: &PaneInput<'_>, line: Rect) {
     // Meanwhile the film may be there again.
     screen.fetch_projected_picture(None, [64; 2], false, ui.ctx());
     let mut builder = UiBuilder::new().max_rect(line);
@@ -164,7 +158,7 @@ fn show_missing_film_line(
     ui.scope_builder(builder, |ui| {
         ui.set_clip_rect(line.intersect(ui.clip_rect()));
         ui.horizontal(|ui| {
-            offer_film_file_choice(screen, ui, seen, out);
+            offer_film_file_choice(screen, ui, seen);
             let name = file_name_of_url(&screen.track.url);
             let text = fill_text_braces(seen.say_text(words::MISSING), &[("name", &name)]);
             let label = Label::new(RichText::new(text).small().weak()).truncate();
@@ -215,26 +209,26 @@ fn write_text(ui: &Ui, room: Rect, text: &str) {
 }
 
 /// Offers remedies for a film that cannot be found.
-fn offer_missing_film_remedies(screen: &FilmScreen, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
-    offer_film_file_choice(screen, ui, seen, out);
+fn offer_missing_film_remedies(screen: &FilmScreen, ui: &mut Ui, seen: &PaneInput<'_>) {
+    offer_film_file_choice(screen, ui, seen);
     if ui.small_button(seen.say_text(words::ABOUT)).clicked() {
-        out.send_command(WindowCommand::Inspect(InspectedThing::Recording(
+        seen.send_command(WindowCommand::Inspect(InspectedThing::Recording(
             screen.track.recording_id,
         )));
     }
 }
 
 /// Offers to choose the file of a film.
-fn offer_film_file_choice(screen: &FilmScreen, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+fn offer_film_file_choice(screen: &FilmScreen, ui: &mut Ui, seen: &PaneInput<'_>) {
     if ui.small_button(seen.say_text(words::FIND)).clicked() {
         let (recording, track) = (screen.track.recording_id, screen.track.id);
-        out.send_command(WindowCommand::Choose(ChooserPurpose::Media(recording, Some(track))));
+        seen.send_command(WindowCommand::Choose(ChooserPurpose::Media(recording, Some(track))));
     }
 }
 
 /// Shows the controls of the film: step by frames, hold a frame, align the held frame with the playhead, and the film's
 /// start.
-fn controls(screen: &mut FilmScreen, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox, at: RecordingInstant) {
+fn controls(screen: &mut FilmScreen, ui: &mut Ui, seen: &PaneInput<'_>, at: RecordingInstant) {
     let Some(times) = screen.frame_times().cloned() else {
         return;
     };
@@ -251,7 +245,7 @@ fn controls(screen: &mut FilmScreen, ui: &mut Ui, seen: &PaneInput<'_>, out: &mu
             Some(frame) => *frame = frame.saturating_add_signed(sign as isize).min(last),
             None => {
                 if let Some(next) = screen.step_film_frame(at, sign) {
-                    out.send_command(WindowCommand::Cue(next));
+                    seen.send_command(WindowCommand::Cue(next));
                 }
             }
         }
@@ -272,11 +266,11 @@ fn controls(screen: &mut FilmScreen, ui: &mut Ui, seen: &PaneInput<'_>, out: &mu
         if here.on_hover_text(hint).clicked()
             && let Some(offset) = screen.offset_for_frame(frame, at)
         {
-            lay_film_offset(screen, out, offset);
+            lay_film_offset(screen, seen.out, offset);
             screen.loose = None;
         }
     }
-    show_film_offset(screen, ui, seen, out);
+    show_film_offset(screen, ui, seen);
     let frame = screen.screen_frame_at(at).map_or(0, |frame| frame + 1);
     let values: [(&str, &dyn std::fmt::Display); 2] = [("n", &frame), ("all", &times.film_frame_count())];
     let long = fill_text_braces(seen.say_text(words::FRAME_OF), &values);
@@ -303,7 +297,7 @@ fn controls(screen: &mut FilmScreen, ui: &mut Ui, seen: &PaneInput<'_>, out: &mu
 
 /// Shows the start of the film on the recording's clock, to be dragged or typed; the corpus is changed once, on
 /// release.
-fn show_film_offset(screen: &mut FilmScreen, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+fn show_film_offset(screen: &mut FilmScreen, ui: &mut Ui, seen: &PaneInput<'_>) {
     let mut seconds = screen.film_offset_micros() as f64 / 1e6;
     let field = DragValue::new(&mut seconds)
         .speed(0.005)
@@ -321,13 +315,13 @@ fn show_film_offset(screen: &mut FilmScreen, ui: &mut Ui, seen: &PaneInput<'_>, 
     }
     let done = response.drag_stopped() || response.lost_focus();
     if done && let Some(offset) = screen.dragged {
-        lay_film_offset(screen, out, offset);
+        lay_film_offset(screen, seen.out, offset);
     }
     response.on_hover_text(seen.say_text(words::OFFSET_HINT));
 }
 
 /// Sets the start of the film, in microseconds on the recording's clock.
-fn lay_film_offset(screen: &mut FilmScreen, out: &mut CommandOutbox, offset: i64) {
+fn lay_film_offset(screen: &mut FilmScreen, out: &CommandOutbox, offset: i64) {
     if offset == screen.track.offset_us {
         screen.dragged = None;
         return;

@@ -33,7 +33,7 @@ use eframe::egui::{
 };
 
 use crate::action::Action;
-use crate::command::{CommandOutbox, WindowCommand};
+use crate::command::WindowCommand;
 use crate::context::PaneInput;
 use crate::layout::PaneKind;
 use crate::words::{InterfaceText, shell};
@@ -53,15 +53,10 @@ pub(crate) enum ActionOutcome {
 /// The interface of every pane.
 pub(crate) trait PaneInterface {
     /// Draws the pane, and sends requests for the user's input in it.
-    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox);
+    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>);
 
     /// Carries out an action of this pane.
-    fn carry_out_pane_action(
-        &mut self,
-        _action: Action,
-        _seen: &PaneInput<'_>,
-        _out: &mut CommandOutbox,
-    ) -> ActionOutcome {
+    fn carry_out_pane_action(&mut self, _action: Action, _seen: &PaneInput<'_>) -> ActionOutcome {
         ActionOutcome::No
     }
 
@@ -124,12 +119,7 @@ impl PaneSet {
 }
 
 /// Shows the progress of a running piece of work, and a button that stops it; returns whether it runs.
-pub(crate) fn show_running_work(
-    ui: &mut Ui,
-    seen: &PaneInput<'_>,
-    work: Option<WorkId>,
-    out: &mut CommandOutbox,
-) -> bool {
+pub(crate) fn show_running_work(ui: &mut Ui, seen: &PaneInput<'_>, work: Option<WorkId>) -> bool {
     let Some((id, running)) = work.and_then(|id| Some((id, seen.running.get(&id)?))) else {
         return false;
     };
@@ -138,7 +128,7 @@ pub(crate) fn show_running_work(
         None => drop(ui.spinner()),
     }
     if ui.button(seen.say_text(shell::CANCEL)).clicked() {
-        out.send_command(WindowCommand::Stop(id));
+        seen.send_command(WindowCommand::Stop(id));
     }
     true
 }

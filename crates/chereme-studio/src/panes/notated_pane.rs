@@ -33,12 +33,7 @@ pub(crate) struct AnimatedNotations {
 
 impl AnimatedNotations {
     /// Returns the movement of a token; if it is missing, requests it, one token at a time.
-    pub(crate) fn notated_clip(
-        &mut self,
-        token: i64,
-        gloss: &str,
-        out: &mut CommandOutbox,
-    ) -> Option<Arc<GeneratedClip>> {
+    pub(crate) fn notated_clip(&mut self, token: i64, gloss: &str, out: &CommandOutbox) -> Option<Arc<GeneratedClip>> {
         if let Some(made) = self.made.get(&token) {
             return made.as_ref().ok().cloned();
         }
@@ -52,20 +47,14 @@ impl AnimatedNotations {
     }
 
     /// Opens a token, to be shown on the stage.
-    pub(crate) fn open_notated_sign(&mut self, token: i64, gloss: &str, out: &mut CommandOutbox) {
+    pub(crate) fn open_notated_sign(&mut self, token: i64, gloss: &str, out: &CommandOutbox) {
         self.wanted = Some((token, gloss.to_owned()));
         self.notated_clip(token, gloss, out);
     }
 
     /// Chooses a sign: shows it in its recording, or animates its notation; a sign without either is shown in the
     /// inspector alone.
-    pub(crate) fn choose_notated_sign(
-        &mut self,
-        moves: SignMovement,
-        token: i64,
-        gloss: &str,
-        out: &mut CommandOutbox,
-    ) {
+    pub(crate) fn choose_notated_sign(&mut self, moves: SignMovement, token: i64, gloss: &str, out: &CommandOutbox) {
         match moves {
             SignMovement::Recorded(recording, span) => {
                 out.send_command(WindowCommand::Made(None));
@@ -84,16 +73,16 @@ impl AnimatedNotations {
     }
 
     /// Chooses the sign with this citation form.
-    pub(crate) fn choose_citation_sign(&mut self, seen: &PaneInput<'_>, token: i64, out: &mut CommandOutbox) {
+    pub(crate) fn choose_citation_sign(&mut self, seen: &PaneInput<'_>, token: i64) {
         let signs = &seen.snapshot.overview.signs;
         match signs.iter().find(|sign| sign.citation == Some(token)) {
-            Some(sign) => self.choose_notated_sign(SignMovement::movement_of_sign(sign), token, &sign.gloss, out),
-            None => out.send_command(WindowCommand::Inspect(InspectedThing::Token(token))),
+            Some(sign) => self.choose_notated_sign(SignMovement::movement_of_sign(sign), token, &sign.gloss, seen.out),
+            None => seen.send_command(WindowCommand::Inspect(InspectedThing::Token(token))),
         }
     }
 
     /// Shows the opened token on the stage once it is animated.
-    pub(crate) fn show_opened_notation(&mut self, out: &mut CommandOutbox) {
+    pub(crate) fn show_opened_notation(&mut self, out: &CommandOutbox) {
         if let Some(made) = self.take_requested_animation(out) {
             out.send_command(WindowCommand::Made(Some(made)));
             out.send_command(WindowCommand::Look);
@@ -101,7 +90,7 @@ impl AnimatedNotations {
     }
 
     /// Returns the movement to show on the stage, once; requests it if another animation was in progress.
-    fn take_requested_animation(&mut self, out: &mut CommandOutbox) -> Option<Arc<GeneratedClip>> {
+    fn take_requested_animation(&mut self, out: &CommandOutbox) -> Option<Arc<GeneratedClip>> {
         let (token, gloss) = self.wanted.clone()?;
         let is_made = self.made.contains_key(&token);
         let made = self.notated_clip(token, &gloss, out);
@@ -159,7 +148,7 @@ mod tests {
     use crate::work::CorpusJob;
 
     /// Returns the requested animations, each with its error in an empty corpus, which names the token.
-    fn asked(out: &mut CommandOutbox) -> Vec<(WorkId, String)> {
+    fn asked(out: &CommandOutbox) -> Vec<(WorkId, String)> {
         let folder = tempfile::tempdir().expect("a folder");
         let corpus = Corpus::create_corpus(&folder.path().join("empty.chereme"), "A");
         let mut corpus = corpus.expect("created");
@@ -178,23 +167,23 @@ mod tests {
 
     #[test]
     fn signs_are_animated_one_at_a_time_and_failures_are_not_requested_again() {
-        let (mut notated, mut out) = (AnimatedNotations::default(), CommandOutbox::default());
-        assert!(notated.notated_clip(3, "A", &mut out).is_none());
-        assert!(notated.notated_clip(4, "B", &mut out).is_none());
-        let first = asked(&mut out);
+        let (mut notated, out) = (AnimatedNotations::default(), CommandOutbox::default());
+        assert!(notated.notated_clip(3, "A", &out).is_none());
+        assert!(notated.notated_clip(4, "B", &out).is_none());
+        let first = asked(&out);
         assert_eq!(first.len(), 1);
         assert!(first[0].1.contains("token:3"), "{}", first[0].1);
-        notated.open_notated_sign(4, "B", &mut out);
+        notated.open_notated_sign(4, "B", &out);
         assert_eq!(notated.movement_absence(4), Some(MovementAbsence::Making));
         notated.receive_animation_result(first[0].0, &Err(CorpusError::from_wrong_message("no hand")));
-        assert!(notated.notated_clip(3, "A", &mut out).is_none() && asked(&mut out).is_empty());
+        assert!(notated.notated_clip(3, "A", &out).is_none() && asked(&out).is_empty());
         assert_eq!(
             notated.movement_absence(3),
             Some(MovementAbsence::Failed("no hand".into()))
         );
-        assert!(notated.notated_clip(5, "C", &mut out).is_none() && asked(&mut out).is_empty());
-        assert!(notated.take_requested_animation(&mut out).is_none());
-        let next = &asked(&mut out)[0].1;
+        assert!(notated.notated_clip(5, "C", &out).is_none() && asked(&out).is_empty());
+        assert!(notated.take_requested_animation(&out).is_none());
+        let next = &asked(&out)[0].1;
         assert!(next.contains("token:4"), "what is waited for goes first: {next}");
         notated.forget_animation_failures(7);
         assert!(notated.made.is_empty());

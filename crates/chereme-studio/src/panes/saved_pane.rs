@@ -6,7 +6,7 @@ use eframe::egui::{Button, Id, Ui};
 
 use super::complete_pane::CompletionLine;
 use super::import::PathCompletions;
-use crate::command::{ChooserPurpose, CommandOutbox, WindowCommand};
+use crate::command::{ChooserPurpose, WindowCommand};
 use crate::context::PaneInput;
 use crate::words::{InterfaceText, fill_text_braces, studies_words as words};
 use crate::work::WorkId;
@@ -33,7 +33,6 @@ impl SavedTo {
         seen: &PaneInput<'_>,
         file: SavedFile,
         proposed: &str,
-        out: &mut CommandOutbox,
     ) -> Option<(PathBuf, bool)> {
         if self.to.is_empty() && !std::mem::replace(&mut self.proposed, true) {
             self.to = seen.path_beside_corpus(proposed).display().to_string();
@@ -43,7 +42,7 @@ impl SavedTo {
             hint: "",
             chooser: file.chooser,
         };
-        field.show_path_line(ui, seen, &mut self.paths, &mut self.to, out);
+        field.show_path_line(ui, seen, &mut self.paths, &mut self.to);
         let ready = !self.to.trim().is_empty() && !seen.is_running(self.saving);
         let save_button = ui.add_enabled(ready, Button::new(seen.say_text(file.button)));
         let save = save_button.on_disabled_hover_text(seen.say_text(words::NEEDS_FILE));
@@ -90,7 +89,6 @@ impl PathField<'_> {
         seen: &PaneInput<'_>,
         paths: &mut PathCompletions,
         text: &mut String,
-        out: &mut CommandOutbox,
     ) {
         ui.weak(seen.say_text(self.name));
         let line = CompletionLine {
@@ -100,7 +98,7 @@ impl PathField<'_> {
         };
         paths.show_path_field(ui, Id::unique(("study path", self.name.text_id())), line, text);
         if ui.button(seen.say_text(words::CHOOSE)).clicked() {
-            out.send_command(WindowCommand::Choose(self.chooser));
+            seen.send_command(WindowCommand::Choose(self.chooser));
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use eframe::egui::{Frame, Label, Margin, Panel, RichText, Ui};
 
-use crate::command::{CommandOutbox, WindowCommand};
+use crate::command::WindowCommand;
 use crate::context::PaneInput;
 use crate::panes::recombine::recipe_of;
 use crate::words::{fill_text_braces, library as words};
@@ -27,7 +27,6 @@ const LOW_LIST_HEIGHT_POINTS: f32 = 300.0;
 pub(crate) fn show_movement_absence(
     ui: &mut Ui,
     seen: &PaneInput<'_>,
-    out: &mut CommandOutbox,
     token: i64,
     gloss: &str,
     bare: &MovementAbsence,
@@ -50,7 +49,7 @@ pub(crate) fn show_movement_absence(
         };
         if low {
             ui.horizontal(|ui| {
-                show_absence_actions(ui, seen, out, token, gloss, bare);
+                show_absence_actions(ui, seen, token, gloss, bare);
                 let full_text = format!("{text}\n{why}");
                 ui.add(Label::new(&text).truncate()).on_hover_text(full_text.trim_end());
             });
@@ -60,19 +59,12 @@ pub(crate) fn show_movement_absence(
         if !why.is_empty() {
             ui.label(RichText::new(why).small().weak());
         }
-        ui.horizontal_wrapped(|ui| show_absence_actions(ui, seen, out, token, gloss, bare));
+        ui.horizontal_wrapped(|ui| show_absence_actions(ui, seen, token, gloss, bare));
     });
 }
 
 /// Shows the possible actions.
-fn show_absence_actions(
-    ui: &mut Ui,
-    seen: &PaneInput<'_>,
-    out: &mut CommandOutbox,
-    token: i64,
-    gloss: &str,
-    bare: &MovementAbsence,
-) {
+fn show_absence_actions(ui: &mut Ui, seen: &PaneInput<'_>, token: i64, gloss: &str, bare: &MovementAbsence) {
     let (name, recipe) = match bare {
         MovementAbsence::Making => return,
         MovementAbsence::Animated => {
@@ -83,10 +75,10 @@ fn show_absence_actions(
     };
     if ui.button(seen.say_text(name)).clicked() {
         let gloss = gloss.to_owned();
-        out.send_command(WindowCommand::Make { recipe, gloss });
+        seen.send_command(WindowCommand::Make { recipe, gloss });
     }
     if *bare != MovementAbsence::Animated && ui.button(seen.say_text(words::ALIKE)).clicked() {
         let query = format!("like token:{token} not origin=lexicon");
-        out.send_command(WindowCommand::Find(query));
+        seen.send_command(WindowCommand::Find(query));
     }
 }

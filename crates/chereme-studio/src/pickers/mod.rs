@@ -32,7 +32,7 @@ use eframe::egui::{
     WidgetInfo, WidgetText, pos2, vec2,
 };
 
-use crate::command::{CommandOutbox, WindowCommand};
+use crate::command::WindowCommand;
 use crate::context::PaneInput;
 use crate::model::InspectedThing;
 use crate::script::script_edit;
@@ -73,9 +73,9 @@ pub(crate) struct ValuePicker {
 
 impl ValuePicker {
     /// Shows a value in the inspector if its details were requested with Ctrl and a click, or the other mouse button.
-    pub(crate) fn inspect_requested_value(&mut self, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    pub(crate) fn inspect_requested_value(&mut self, seen: &PaneInput<'_>) {
         if let Some(thing) = self.take_requested_value(seen) {
-            out.send_command(WindowCommand::Inspect(thing));
+            seen.send_command(WindowCommand::Inspect(thing));
         }
     }
 

@@ -6,7 +6,7 @@ use eframe::egui::{Id, Response, ScrollArea, Ui};
 use super::agreement_data::{DisagreementKinds, DisagreementOrder};
 use super::{AgreementPane, AgreementView};
 use crate::action::Action;
-use crate::command::{CommandOutbox, WindowCommand};
+use crate::command::WindowCommand;
 use crate::context::PaneInput;
 use crate::panes::{combo, list_keys, list_row_at, scrolled_to};
 use crate::words::{agreement as words, fill_text_braces};
@@ -51,7 +51,6 @@ impl AgreementPane {
         seen: &PaneInput<'_>,
         found: &AnnotatorAgreement,
         names: &[String; 2],
-        out: &mut CommandOutbox,
     ) {
         if found.list.is_empty() {
             ui.label(seen.say_text(words::NONE));
@@ -98,7 +97,7 @@ impl AgreementPane {
             ] {
                 let button = ui.button(seen.say_text(text));
                 if button.on_hover_text(seen.keys.action_keys_text(action)).clicked() {
-                    out.send_command(WindowCommand::Do(action));
+                    seen.send_command(WindowCommand::Do(action));
                 }
             }
             let values: [(&str, &dyn std::fmt::Display); 2] =
@@ -109,12 +108,12 @@ impl AgreementPane {
             ui.label(seen.say_text(words::NONE_OF_KIND));
             return;
         }
-        self.rows_of_list(ui, seen, out);
+        self.rows_of_list(ui, seen);
     }
 
-    fn rows_of_list(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn rows_of_list(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         let height = ui.spacing().interact_size.y * DISAGREEMENT_ROW_HEIGHT;
-        self.take_disagreement_keys(ui, seen, out);
+        self.take_disagreement_keys(ui, seen);
         let mut area = ScrollArea::vertical().id_salt("disagreements").auto_shrink(false);
         if let Some(at) = self.reach {
             let row_pitch = height + ui.spacing().item_spacing.y;
@@ -145,13 +144,13 @@ impl AgreementPane {
         }
         self.rows = rows;
         if let Some(at) = opened {
-            self.open_disagreement(at, seen, out);
+            self.open_disagreement(at, seen);
             self.reach = Some(at);
         }
     }
 
     /// Takes the arrow keys if a row of the list has the focus: each row is opened as it is reached.
-    fn take_disagreement_keys(&mut self, ui: &Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn take_disagreement_keys(&mut self, ui: &Ui, seen: &PaneInput<'_>) {
         let Some(focused) = ui.memory(|memory| memory.focused()) else {
             return;
         };
@@ -160,7 +159,7 @@ impl AgreementPane {
             return;
         };
         if let Some(to) = list_keys::take_list_keys(ui, now, self.rows.len()) {
-            self.open_disagreement(to, seen, out);
+            self.open_disagreement(to, seen);
             self.reach = Some(to);
         }
     }

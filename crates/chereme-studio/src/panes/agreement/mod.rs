@@ -15,7 +15,7 @@ use self::agreement_data::{AgreementChoices, DisagreementKey, DisagreementKinds,
 use super::saved_pane::{SavedFile, SavedTo};
 use super::{ActionOutcome, PaneInterface, combo, reach_focus, show_running_work};
 use crate::action::Action;
-use crate::command::{ChooserPurpose, CommandOutbox, WindowCommand};
+use crate::command::{ChooserPurpose, WindowCommand};
 use crate::context::PaneInput;
 use crate::script::script_edit;
 use crate::window_remedy;
@@ -119,13 +119,7 @@ impl AgreementPane {
     }
 
     /// Requests the comparison if its inputs changed.
-    fn request_comparison(
-        &mut self,
-        ui: &Ui,
-        seen: &PaneInput<'_>,
-        contents: &RecordingContents,
-        out: &mut CommandOutbox,
-    ) {
+    fn request_comparison(&mut self, ui: &Ui, seen: &PaneInput<'_>, contents: &RecordingContents) {
         let Some((options, names)) = self.choices.agree_options(contents) else {
             if !self.choices.everywhere || self.choices.by_text {
                 (self.found, self.asked, self.wrong) = (None, None, None);
@@ -143,7 +137,7 @@ impl AgreementPane {
             return;
         }
         if let Some(old) = self.asking.take() {
-            out.send_command(WindowCommand::Stop(old));
+            seen.send_command(WindowCommand::Stop(old));
         }
         let taken: Vec<&str> = contents.tiers.iter().map(|tier| tier.row.name.as_str()).collect();
         let proposed = agreement_data::third_name(&asked.names, &taken);
@@ -153,7 +147,7 @@ impl AgreementPane {
         }
         self.proposed = proposed;
         self.stopped = false;
-        self.asking = Some(out.request_work(comparing::compare_tiers_job(asked.options.clone())));
+        self.asking = Some(seen.request_work(comparing::compare_tiers_job(asked.options.clone())));
         self.asked = Some(asked);
     }
 
@@ -177,13 +171,7 @@ impl AgreementPane {
     }
 
     /// Shows the lists of tiers, and the settings.
-    fn show_comparison_tools(
-        &mut self,
-        ui: &mut Ui,
-        seen: &PaneInput<'_>,
-        contents: &RecordingContents,
-        out: &mut CommandOutbox,
-    ) {
+    fn show_comparison_tools(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, contents: &RecordingContents) {
         let named = |tier: &chereme_corpus::TierContents| match tier.row.annotator.as_deref() {
             Some(by) if !by.trim().is_empty() => format!("{} · {by}", tier.row.name),
             _ => tier.row.name.clone(),
@@ -212,7 +200,7 @@ impl AgreementPane {
             ] {
                 ui.checkbox(on, seen.say_text(text)).on_hover_text(seen.say_text(tip));
             }
-            show_running_work(ui, seen, self.asking, out);
+            show_running_work(ui, seen, self.asking);
         });
         let header = CollapsingHeader::new(seen.say_text(words::SETTINGS)).id_salt("settings");
         header.show(ui, |ui| {
@@ -270,13 +258,7 @@ impl AgreementPane {
     }
 
     /// Shows the file for the table of disagreements, and the button that writes it.
-    fn show_disagreement_export(
-        &mut self,
-        ui: &mut Ui,
-        seen: &PaneInput<'_>,
-        found: &Arc<AnnotatorAgreement>,
-        out: &mut CommandOutbox,
-    ) {
+    fn show_disagreement_export(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, found: &Arc<AnnotatorAgreement>) {
         let header = CollapsingHeader::new(seen.say_text(words::SAVE_TABLE)).id_salt("table");
         header.show(ui, |ui| {
             let file = SavedFile {
@@ -284,10 +266,10 @@ impl AgreementPane {
                 button: words::WRITE_TABLE,
                 chooser: ChooserPurpose::Disagreements,
             };
-            let to = self.saved.show_save_path(ui, seen, file, "disagreements.csv", out);
+            let to = self.saved.show_save_path(ui, seen, file, "disagreements.csv");
             if let Some((to, force)) = to {
                 let job = comparing::write_disagreements_job(found.clone(), to, force);
-                self.saved.saving = Some(out.request_work(job));
+                self.saved.saving = Some(seen.request_work(job));
             }
         });
     }
@@ -315,13 +297,7 @@ impl AgreementPane {
     }
 
     /// Shows the name of the third tier, and the button that writes it.
-    fn third(
-        &mut self,
-        ui: &mut Ui,
-        seen: &PaneInput<'_>,
-        contents: Option<&RecordingContents>,
-        out: &mut CommandOutbox,
-    ) {
+    fn third(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, contents: Option<&RecordingContents>) {
         ui.horizontal_wrapped(|ui| {
             let name = seen.say_text(words::INTO);
             ui.weak(name);
@@ -347,7 +323,7 @@ impl AgreementPane {
                 let into = self.into.trim().to_owned();
                 self.written = None;
                 let job = comparing::adjudicate_tiers_job(asked.options.clone(), into);
-                self.writing = Some(out.request_work(job));
+                self.writing = Some(seen.request_work(job));
             }
         });
         // After an undo the third tier does not exist any more.
@@ -368,13 +344,13 @@ impl AgreementPane {
             ];
             ui.label(fill_text_braces(seen.say_text(words::WRITTEN), &values));
             if done.conflicts > 0 && ui.button(seen.say_text(words::DECIDE)).clicked() {
-                out.send_command(WindowCommand::Do(Action::ShowHistory));
+                seen.send_command(WindowCommand::Do(Action::ShowHistory));
             }
         });
     }
 
     /// Opens the disagreement of a row: the place on the timeline and the stage, and the annotation.
-    fn open_disagreement(&mut self, at: usize, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn open_disagreement(&mut self, at: usize, seen: &PaneInput<'_>) {
         let Some((found, _)) = &self.found else {
             return;
         };
@@ -382,7 +358,7 @@ impl AgreementPane {
             return;
         };
         (self.chosen, self.at) = (Some(agreement_data::disagreement_key(it)), Some(at));
-        out.send_command(WindowCommand::Place(
+        seen.send_command(WindowCommand::Place(
             it.recording_id,
             agreement_data::disagreement_span(it),
         ));
@@ -393,15 +369,15 @@ impl AgreementPane {
                 .find_open_annotation(id)
                 .map(|annotation| annotation.tier.row.id);
             if tier.is_some() {
-                out.send_command(WindowCommand::Tier(tier));
+                seen.send_command(WindowCommand::Tier(tier));
             }
-            out.send_command(WindowCommand::Annotations(BTreeSet::from([id])));
+            seen.send_command(WindowCommand::Annotations(BTreeSet::from([id])));
         }
-        out.send_command(WindowCommand::Look);
+        seen.send_command(WindowCommand::Look);
     }
 
     /// Opens the next disagreement of the list, or the previous one.
-    fn walk_disagreements(&mut self, by: isize, seen: &PaneInput<'_>, out: &mut CommandOutbox) -> ActionOutcome {
+    fn walk_disagreements(&mut self, by: isize, seen: &PaneInput<'_>) -> ActionOutcome {
         self.refresh_disagreement_rows(seen.language);
         if self.found.is_none() {
             return ActionOutcome::Cannot(words::NEEDS_RESULT);
@@ -410,25 +386,25 @@ impl AgreementPane {
             return ActionOutcome::Cannot(words::NO_MORE);
         };
         self.view = AgreementView::Disagreements;
-        self.open_disagreement(to, seen, out);
+        self.open_disagreement(to, seen);
         self.reach = Some(to);
         ActionOutcome::Yes
     }
 }
 
 impl PaneInterface for AgreementPane {
-    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         let contents = seen.shown.recording.and_then(|id| seen.snapshot.recording_contents(id));
         if let Some(contents) = contents {
             self.settle_compared_tiers(contents);
-            self.request_comparison(ui, seen, contents, out);
+            self.request_comparison(ui, seen, contents);
         }
         let contents = seen.snapshot.contents_or_before(seen.shown.recording);
         self.refresh_disagreement_rows(seen.language);
         let area = ScrollArea::vertical().id_salt("agreement").auto_shrink(false);
         area.show(ui, |ui| {
             match contents {
-                Some(contents) => self.show_comparison_tools(ui, seen, contents, out),
+                Some(contents) => self.show_comparison_tools(ui, seen, contents),
                 None if seen.shown.recording.is_none() => {
                     drop(ui.label(seen.say_text(words::NO_RECORDING)));
                 }
@@ -446,13 +422,13 @@ impl PaneInterface for AgreementPane {
                 return;
             };
             agreement_tables::show_agreement_measures(ui, seen, &found);
-            self.third(ui, seen, contents, out);
-            self.show_disagreement_export(ui, seen, &found, out);
+            self.third(ui, seen, contents);
+            self.show_disagreement_export(ui, seen, &found);
             self.show_agreement_views(ui, seen, &found);
             let height = ui.available_height().max(MIN_AGREEMENT_LIST_HEIGHT);
             let width = ui.available_width();
             ui.allocate_ui(eframe::egui::vec2(width, height), |ui| match self.view {
-                AgreementView::Disagreements => self.show_disagreement_list(ui, seen, &found, &names, out),
+                AgreementView::Disagreements => self.show_disagreement_list(ui, seen, &found, &names),
                 AgreementView::Values => agreement_tables::show_value_agreement(ui, seen, &found),
                 AgreementView::Confusion => agreement_tables::show_value_confusion(ui, seen, &found),
                 AgreementView::Measures => agreement_tables::every_measure(ui, seen, &found),
@@ -462,15 +438,10 @@ impl PaneInterface for AgreementPane {
         });
     }
 
-    fn carry_out_pane_action(
-        &mut self,
-        action: Action,
-        seen: &PaneInput<'_>,
-        out: &mut CommandOutbox,
-    ) -> ActionOutcome {
+    fn carry_out_pane_action(&mut self, action: Action, seen: &PaneInput<'_>) -> ActionOutcome {
         match action {
-            Action::NextDisagreement => self.walk_disagreements(1, seen, out),
-            Action::PreviousDisagreement => self.walk_disagreements(-1, seen, out),
+            Action::NextDisagreement => self.walk_disagreements(1, seen),
+            Action::PreviousDisagreement => self.walk_disagreements(-1, seen),
             _ => ActionOutcome::No,
         }
     }

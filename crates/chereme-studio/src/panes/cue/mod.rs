@@ -78,7 +78,7 @@ impl CuePane {
     }
 
     /// Requests the movement of a reading, unless it is the one that is shown; if `hidden`, the window does not name it.
-    fn show_cued_movement(&mut self, reading: &CuedReading, hidden: bool, out: &mut CommandOutbox) {
+    fn show_cued_movement(&mut self, reading: &CuedReading, hidden: bool, out: &CommandOutbox) {
         if reading.keys.is_empty() {
             return;
         }
@@ -270,13 +270,13 @@ impl CuePane {
         }
     }
 
-    fn cuer(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, reading: &CuedReading, out: &mut CommandOutbox) {
+    fn cuer(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, reading: &CuedReading) {
         ui.horizontal_wrapped(|ui| {
             let ready = !reading.keys.is_empty();
             if ui.add_enabled(ready, Button::new(seen.say_text(words::SHOW))).clicked() {
                 self.shows = true;
                 self.changed = f64::NEG_INFINITY;
-                out.send_command(WindowCommand::Look);
+                seen.send_command(WindowCommand::Look);
             }
             if seen.is_running(self.making) {
                 ui.spinner();
@@ -308,7 +308,7 @@ impl CuePane {
                 .clicked()
             {
                 let gloss = self.gloss.trim().to_owned();
-                self.storing = Some(out.request_work(recombining::store_recipe_job(self.of.clone(), gloss)));
+                self.storing = Some(seen.request_work(recombining::store_recipe_job(self.of.clone(), gloss)));
             }
         });
         // After an undo the stored sign does not exist any more.
@@ -321,7 +321,7 @@ impl CuePane {
         }
     }
 
-    fn practise(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn practise(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         let seed = (ui.input(|input| input.time) * 1e6) as u64;
         let begun = self.choose_practice_set(ui, seen);
         let mut cue_now = begun.is_some();
@@ -334,12 +334,12 @@ impl CuePane {
         };
         ui.separator();
         cue_now |= show_exercise(ui, seen, &mut exercise);
-        self.show_practice_view(ui, seen, out);
+        self.show_practice_view(ui, seen);
         if cue_now && let Some(item) = exercise.cued_item() {
             let reading = cue_data::read_cued_text(&item.input, &self.choices, &PhoneCorrections::new());
             self.shows = false;
-            self.show_cued_movement(&reading, true, out);
-            out.send_command(WindowCommand::Look);
+            self.show_cued_movement(&reading, true, seen.out);
+            seen.send_command(WindowCommand::Look);
         }
         self.exercise = Some(exercise);
     }
@@ -383,7 +383,7 @@ impl CuePane {
     }
 
     /// Shows the speed of the movement and the sides from which it is seen.
-    fn show_practice_view(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn show_practice_view(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         ui.horizontal_wrapped(|ui| {
             let label = ui.label(seen.say_text(words::SPEED));
             let mut speed = self.speed.unwrap_or(1.0);
@@ -394,18 +394,18 @@ impl CuePane {
                 .suffix(" ×");
             if ui.add(field).labelled_by(label.id).changed() {
                 self.speed = Some(speed);
-                out.send_command(WindowCommand::Speed(speed));
+                seen.send_command(WindowCommand::Speed(speed));
             }
             if ui.button(seen.say_text(words::FROM_SIDE)).clicked() {
-                out.send_command(WindowCommand::Do(Action::ViewRight));
+                seen.send_command(WindowCommand::Do(Action::ViewRight));
             }
             if ui.button(seen.say_text(words::FROM_FRONT)).clicked() {
-                out.send_command(WindowCommand::Do(Action::ViewFront));
+                seen.send_command(WindowCommand::Do(Action::ViewFront));
             }
         });
     }
 
-    fn show_cue_slips(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn show_cue_slips(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         ui.weak(seen.say_text(words::SLIPS_HINT));
         let recording = seen.shown.recording;
         ui.horizontal(|ui| {
@@ -417,7 +417,7 @@ impl CuePane {
                     .get(self.choices.code)
                     .map_or("french", |code| code.id.as_str());
                 (self.slips, self.slips_wrong) = (None, None);
-                self.comparing = Some(out.request_work(analysis::cue_slips(recording, code.to_owned())));
+                self.comparing = Some(seen.request_work(analysis::cue_slips(recording, code.to_owned())));
             }
             if seen.is_running(self.comparing) {
                 ui.spinner();
@@ -435,7 +435,7 @@ impl CuePane {
             if ui.link(text).clicked()
                 && let Some(at) = at
             {
-                out.send_seek(RecordingInstant::from_micros(at));
+                seen.send_seek(RecordingInstant::from_micros(at));
             }
         }
     }
@@ -459,7 +459,7 @@ fn show_cue_part(ui: &mut Ui, seen: &PaneInput<'_>, title: InterfaceText, show: 
 }
 
 impl PaneInterface for CuePane {
-    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         let now = ui.input(|input| input.time);
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             self.show_typed_cue_text(ui, seen);
@@ -479,9 +479,9 @@ impl PaneInterface for CuePane {
                 );
             }
             ui.separator();
-            self.cuer(ui, seen, &reading, out);
-            show_cue_part(ui, seen, words::PRACTISE, |ui| self.practise(ui, seen, out));
-            show_cue_part(ui, seen, words::SLIPS, |ui| self.show_cue_slips(ui, seen, out));
+            self.cuer(ui, seen, &reading);
+            show_cue_part(ui, seen, words::PRACTISE, |ui| self.practise(ui, seen));
+            show_cue_part(ui, seen, words::SLIPS, |ui| self.show_cue_slips(ui, seen));
             // The newest text is shown once it has settled.
             let reading = self.current_cued_reading(now);
             let rest = self.changed + CUE_SETTLE_SECONDS - now;
@@ -489,11 +489,11 @@ impl PaneInterface for CuePane {
                 ui.ctx().request_repaint_after(std::time::Duration::from_secs_f64(rest));
             } else if self.shows && !seen.is_running(self.making) {
                 self.shows = false;
-                self.show_cued_movement(&reading, false, out);
+                self.show_cued_movement(&reading, false, seen.out);
             }
         });
         if let Some(at) = ui.ctx().data_mut(|data| data.remove_temp::<i64>(seek_id())) {
-            out.send_command(WindowCommand::Cue(RecordingInstant::from_micros(at)));
+            seen.send_command(WindowCommand::Cue(RecordingInstant::from_micros(at)));
         }
         if let Some(made) = self.made.as_ref().filter(|_| self.given.is_none()) {
             let made = Arc::new(match self.hidden {
@@ -505,9 +505,9 @@ impl PaneInterface for CuePane {
                 false => GeneratedClip::clip_from_recipe_result(made),
             });
             self.given = Some(Arc::clone(&made));
-            out.send_command(WindowCommand::Made(Some(made)));
+            seen.send_command(WindowCommand::Made(Some(made)));
             if let Some(speed) = self.speed {
-                out.send_command(WindowCommand::Speed(speed));
+                seen.send_command(WindowCommand::Speed(speed));
             }
         }
     }

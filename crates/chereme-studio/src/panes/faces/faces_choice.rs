@@ -9,7 +9,7 @@ use eframe::egui::{
 };
 
 use super::{FacesPane, counted_face_text, faces_data};
-use crate::command::{CommandOutbox, WindowCommand};
+use crate::command::WindowCommand;
 use crate::context::PaneInput;
 use crate::miniatures::{self, MiniatureCell, MiniatureFocus, MiniatureMotion};
 use crate::words::{InterfaceText, faces_words as words, fill_text_braces};
@@ -30,13 +30,7 @@ struct CandidateCaption<'a> {
 
 impl FacesPane {
     /// Shows the sentence's own face and the candidates, side by side.
-    pub(super) fn show_face_candidates(
-        &mut self,
-        ui: &mut Ui,
-        seen: &PaneInput<'_>,
-        choice: &Arc<PerformanceChoice>,
-        out: &mut CommandOutbox,
-    ) {
+    pub(super) fn show_face_candidates(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, choice: &Arc<PerformanceChoice>) {
         let moment = faces_data::loop_moment(&choice.milestones, miniatures::figure_loop_clock(ui));
         let sentence = self.sentence_name(choice);
         let own_label = fill_text_braces(seen.say_text(words::OWN), &[("name", &sentence)]);
@@ -54,10 +48,10 @@ impl FacesPane {
                     score: "",
                     chosen: false,
                 };
-                self.show_candidate_figure(ui, seen, out, motion, side, &caption);
+                self.show_candidate_figure(ui, seen, motion, side, &caption);
                 for (n, it) in choice.ranking.iter().enumerate() {
                     let motion = match self.carried {
-                        true => self.on_sentence(seen, it, choice, moment, out),
+                        true => self.on_sentence(seen, it, choice, moment),
                         false => self.recorded(it.recording_id, &it.milestones, choice, moment),
                     };
                     let values: [(&str, &dyn std::fmt::Display); 2] = [("n", &(n + 1)), ("name", &it.recording)];
@@ -71,7 +65,7 @@ impl FacesPane {
                         score: &shown_score,
                         chosen: self.chosen.as_deref() == Some(&it.token),
                     };
-                    if self.show_candidate_figure(ui, seen, out, motion, side, &caption) {
+                    if self.show_candidate_figure(ui, seen, motion, side, &caption) {
                         picked = Some(it.clone());
                     }
                 }
@@ -101,7 +95,6 @@ impl FacesPane {
         it: &RankedPerformance,
         choice: &PerformanceChoice,
         moment: f64,
-        out: &mut CommandOutbox,
     ) -> Option<(MiniatureMotion, f64)> {
         if let Some(made) = self.made.get(&it.recipe) {
             let made = made.clone()?;
@@ -117,7 +110,7 @@ impl FacesPane {
         let running = |id: &crate::work::WorkId| seen.running.contains_key(id);
         let busy = self.carrying.keys().filter(|id| running(id)).count();
         if !asked && busy < MAX_ANIMATED_SENTENCES && self.carrying.len() < MAX_ANIMATED_SENTENCES {
-            let id = out.request_work(recombining::preview_recipe_job(it.recipe.clone()));
+            let id = seen.request_work(recombining::preview_recipe_job(it.recipe.clone()));
             self.carrying.insert(id, it.recipe.clone());
         }
         None
@@ -128,7 +121,6 @@ impl FacesPane {
         &self,
         ui: &mut Ui,
         seen: &PaneInput<'_>,
-        out: &mut CommandOutbox,
         motion: Option<(MiniatureMotion, f64)>,
         side: f32,
         caption: &CandidateCaption<'_>,
@@ -153,7 +145,7 @@ impl FacesPane {
                 let cell = MiniatureCell::new(motion, picture.size())
                     .with_picture_focus(focus)
                     .with_playing_clock(into);
-                seen.little.paint_figure(ui, seen.language, out, &cell, picture);
+                seen.little.paint_figure(ui, seen.language, seen.out, &cell, picture);
             }
             None => {
                 let back = ui.visuals().extreme_bg_color;
@@ -224,13 +216,7 @@ impl FacesPane {
     }
 
     /// Shows the gloss of the new sign, and the button that stores it.
-    pub(super) fn show_face_sign_form(
-        &mut self,
-        ui: &mut Ui,
-        seen: &PaneInput<'_>,
-        choice: &PerformanceChoice,
-        out: &mut CommandOutbox,
-    ) {
+    pub(super) fn show_face_sign_form(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, choice: &PerformanceChoice) {
         let recipe = self.chosen_performance(choice).map(|ranked| ranked.recipe.clone());
         ui.horizontal_wrapped(|ui| {
             let shown = crate::script::script_edit::draw_text_line(ui, &mut self.gloss, |field| {
@@ -254,13 +240,13 @@ impl FacesPane {
             {
                 let gloss = self.gloss.trim().to_owned();
                 self.stored = None;
-                self.storing = Some(out.request_work(recombining::store_recipe_job(recipe.clone(), gloss)));
+                self.storing = Some(seen.request_work(recombining::store_recipe_job(recipe.clone(), gloss)));
             }
             let button = ui.add_enabled(recipe.is_some(), Button::new(seen.say_text(words::RECIPE)));
             if button.clicked()
                 && let Some(recipe) = recipe
             {
-                out.send_command(WindowCommand::Recipe(recipe, None));
+                seen.send_command(WindowCommand::Recipe(recipe, None));
             }
         });
         let stored_sign = self.stored.as_ref();
@@ -270,8 +256,8 @@ impl FacesPane {
                 let text = fill_text_braces(seen.say_text(words::STORED), &[("gloss", gloss)]);
                 ui.label(RichText::new(text).color(seen.pane_colours().good));
                 if ui.small_button(seen.say_text(words::SHOW_STORED)).clicked() {
-                    out.send_command(WindowCommand::Recording(*recording));
-                    out.send_command(WindowCommand::Look);
+                    seen.send_command(WindowCommand::Recording(*recording));
+                    seen.send_command(WindowCommand::Look);
                 }
             });
         }

@@ -7,7 +7,6 @@ use eframe::egui::{
 
 use super::FacesPane;
 use super::faces_data::OnsetExtent;
-use crate::command::CommandOutbox;
 use crate::context::PaneInput;
 use crate::words::{InterfaceText, faces_words as words, fill_text_braces};
 use crate::work::faces_jobs;
@@ -21,7 +20,7 @@ const ONSET_HALVES_GAP: f32 = 16.0;
 
 impl FacesPane {
     /// Shows begin and end of every channel in the expressions of the function.
-    pub(super) fn show_channel_timing(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    pub(super) fn show_channel_timing(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         let header = CollapsingHeader::new(seen.say_text(words::ONSETS))
             .id_salt("onsets")
             .default_open(false);
@@ -30,7 +29,7 @@ impl FacesPane {
             ui.horizontal(|ui| {
                 let button = Button::new(seen.say_text(words::MEASURE));
                 if ui.add_enabled(!running, button).clicked() {
-                    self.measuring = Some(out.request_work(faces_jobs::measure_onsets_job(self.function.clone())));
+                    self.measuring = Some(seen.request_work(faces_jobs::measure_onsets_job(self.function.clone())));
                 }
                 if running {
                     ui.spinner();

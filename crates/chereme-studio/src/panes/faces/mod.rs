@@ -15,7 +15,7 @@ use eframe::egui::{Button, ScrollArea, Ui};
 
 use self::faces_data::ComparedChannels;
 use super::{PaneInterface, combo};
-use crate::command::{CommandOutbox, WindowCommand};
+use crate::command::WindowCommand;
 use crate::context::PaneInput;
 use crate::model::generated::GeneratedClip;
 use crate::words::{InterfaceText, faces_words as words, fill_text_braces, translate_library_message};
@@ -72,14 +72,14 @@ pub(crate) struct FacesPane {
 
 impl FacesPane {
     /// Requests the expressions, or the ranking, if their inputs changed.
-    fn request_face_answers(&mut self, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn request_face_answers(&mut self, seen: &PaneInput<'_>) {
         if !std::mem::replace(&mut self.begun, true) {
             (self.lengths, self.in_step) = (true, true);
         }
         let generation = seen.snapshot.overview.generation;
         if self.of != Some(generation) && !seen.is_running(self.finding) {
             self.of = Some(generation);
-            self.finding = Some(out.request_work(faces_jobs::find_expressions_job()));
+            self.finding = Some(seen.request_work(faces_jobs::find_expressions_job()));
         }
         let Some(asked) = self.face_question(generation) else {
             return;
@@ -89,7 +89,7 @@ impl FacesPane {
         }
         let options = faces_data::face_choice_options(asked.rank, asked.compared, asked.lengths, MAX_SHOWN_CANDIDATES);
         let job = faces_jobs::choose_performance_job(asked.function.clone(), asked.target.clone(), options);
-        self.choosing = Some(out.request_work(job));
+        self.choosing = Some(seen.request_work(job));
         self.made.clear();
         self.asked = Some(asked);
     }
@@ -191,7 +191,7 @@ impl FacesPane {
     }
 
     /// Shows the milestones of the sentence, and the button that writes them onto a tier.
-    fn show_sentence_milestones(&self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn show_sentence_milestones(&self, ui: &mut Ui, seen: &PaneInput<'_>) {
         let sentence = self.sentence.as_deref();
         let found_sentence = self
             .face_target_sentences()
@@ -215,16 +215,16 @@ impl FacesPane {
             if ui.small_button(seen.say_text(words::SHOW)).clicked()
                 && let Some(recording) = recording
             {
-                out.send_command(WindowCommand::Place(
+                seen.send_command(WindowCommand::Place(
                     recording.row.id,
                     faces_data::seen_span(&it.milestones),
                 ));
-                out.send_command(WindowCommand::Look);
+                seen.send_command(WindowCommand::Look);
             }
             let open = !seen.snapshot.is_read_only();
             let write = ui.add_enabled(open, Button::new(seen.say_text(words::WRITE)).small());
             if write.on_hover_text(seen.say_text(words::WRITE_TIP)).clicked() {
-                out.request_work(faces_jobs::write_milestones_job(it.function.clone()));
+                seen.request_work(faces_jobs::write_milestones_job(it.function.clone()));
             }
         });
         for finding in &it.findings {
@@ -232,14 +232,14 @@ impl FacesPane {
         }
     }
 
-    fn proposing(&self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn proposing(&self, ui: &mut Ui, seen: &PaneInput<'_>) {
         let recording = seen.shown.recording;
         let open = recording.is_some() && !seen.snapshot.is_read_only();
         let button = ui.add_enabled(open, Button::new(seen.say_text(words::PROPOSE)));
         if button.on_hover_text(seen.say_text(words::PROPOSE_TIP)).clicked()
             && let Some(id) = recording
         {
-            out.request_work(analysis::run_detector_job(
+            seen.request_work(analysis::run_detector_job(
                 DetectOptions::propose_with(
                     NonmanualDetector.detector_name(),
                     ProposeScope::Recording(RowName::Number(id)),
@@ -287,9 +287,9 @@ fn compared_channels_name(compared: ComparedChannels) -> InterfaceText {
 }
 
 impl PaneInterface for FacesPane {
-    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         self.settle_function_and_sentence(seen);
-        self.request_face_answers(seen, out);
+        self.request_face_answers(seen);
         // Without an expression there is nothing to choose from.
         let nothing = |list: &Arc<FoundExpressions>| list.expressions.is_empty();
         if !self.found.as_ref().is_some_and(nothing) {
@@ -300,10 +300,10 @@ impl PaneInterface for FacesPane {
                 && found.expressions.is_empty()
             {
                 ui.label(seen.say_text(words::NONE));
-                self.proposing(ui, seen, out);
+                self.proposing(ui, seen);
                 return;
             }
-            self.show_sentence_milestones(ui, seen, out);
+            self.show_sentence_milestones(ui, seen);
             if let Some(wrong) = &self.wrong {
                 ui.colored_label(
                     seen.pane_colours().warning,
@@ -311,14 +311,14 @@ impl PaneInterface for FacesPane {
                 );
             }
             if let Some(choice) = self.choice.clone() {
-                self.show_face_candidates(ui, seen, &choice, out);
+                self.show_face_candidates(ui, seen, &choice);
                 self.show_counts(ui, seen, &choice);
                 self.show_score_reasons(ui, seen, &choice);
-                self.show_face_sign_form(ui, seen, &choice, out);
+                self.show_face_sign_form(ui, seen, &choice);
             }
             ui.separator();
-            self.show_channel_timing(ui, seen, out);
-            self.proposing(ui, seen, out);
+            self.show_channel_timing(ui, seen);
+            self.proposing(ui, seen);
         });
     }
 

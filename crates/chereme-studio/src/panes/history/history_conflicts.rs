@@ -13,7 +13,7 @@ use crate::work::whole_corpus;
 const MAX_CONFLICTS_HEIGHT_SHARE: f32 = 0.6;
 
 /// Shows the open conflicts, if there are any.
-pub(super) fn show_open_conflicts(ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+pub(super) fn show_open_conflicts(ui: &mut Ui, seen: &PaneInput<'_>) {
     let all = &seen.snapshot.overview.conflicts;
     if all.is_empty() {
         return;
@@ -29,7 +29,7 @@ pub(super) fn show_open_conflicts(ui: &mut Ui, seen: &PaneInput<'_>, out: &mut C
             .max_height(height)
             .show(ui, |ui| {
                 for conflict in all {
-                    show_conflict_row(ui, seen, out, conflict);
+                    show_conflict_row(ui, seen, conflict);
                     ui.separator();
                 }
             });
@@ -37,7 +37,7 @@ pub(super) fn show_open_conflicts(ui: &mut Ui, seen: &PaneInput<'_>, out: &mut C
 }
 
 /// Shows the recording of a conflict, at the annotation if the conflict is about one.
-fn show_there(out: &mut CommandOutbox, recording: i64, conflict: &CorpusConflict) {
+fn show_there(out: &CommandOutbox, recording: i64, conflict: &CorpusConflict) {
     let sides = [&conflict.mine, &conflict.theirs].into_iter().flatten();
     let mut spans = sides.filter_map(|side| side.start_us.zip(side.end_us));
     let span = spans.next();
@@ -51,7 +51,7 @@ fn show_there(out: &mut CommandOutbox, recording: i64, conflict: &CorpusConflict
     out.send_command(WindowCommand::Look);
 }
 
-fn show_conflict_row(ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox, conflict: &CorpusConflict) {
+fn show_conflict_row(ui: &mut Ui, seen: &PaneInput<'_>, conflict: &CorpusConflict) {
     let about = format!(
         "{}. {} · {} {}",
         conflict.number,
@@ -63,7 +63,7 @@ fn show_conflict_row(ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox,
         Some(recording) => {
             let link = ui.link(about).on_hover_text(seen.say_text(words::SHOW));
             if link.clicked() {
-                show_there(out, recording, conflict);
+                show_there(seen.out, recording, conflict);
             }
         }
         None => drop(ui.weak(about)),
@@ -87,7 +87,7 @@ fn show_conflict_row(ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox,
             let label = seen.say_text(words::decision_word(decision));
             let button = ui.button(label).on_hover_text(seen.say_text(words::TIP));
             if button.clicked() {
-                out.request_work(whole_corpus::decide_conflict_job(conflict.number, decision));
+                seen.request_work(whole_corpus::decide_conflict_job(conflict.number, decision));
             }
             ui.label(text);
         });

@@ -59,14 +59,14 @@ impl HistoryPane {
         self.of = Some((overview, seen.language, self.filter.clone()));
     }
 
-    fn show_history_buttons(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn show_history_buttons(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         ui.horizontal(|ui| {
             for action in [Action::Undo, Action::Redo] {
                 let button = ui.button(seen.say_text(action.action_row().name));
                 if button.on_hover_text(seen.keys.action_keys_text(action)).clicked() {
                     // This undoes changes of the corpus, even if the recipe changed since.
                     let back = action == Action::Undo;
-                    out.request_work(whole_corpus::undo_or_redo(back));
+                    seen.request_work(whole_corpus::undo_or_redo(back));
                 }
             }
             let width = ui.available_width() - 8.0;
@@ -79,7 +79,7 @@ impl HistoryPane {
     }
 
     /// Asks for confirmation of a walk of several steps.
-    fn confirmation(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn confirmation(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         let Some(walk) = self.walk else { return };
         let text = if walk.back {
             words::WALK_BACK
@@ -90,7 +90,7 @@ impl HistoryPane {
             ui.label(fill_text_braces(seen.say_text(text), &[("n", &walk.steps)]));
             let go = Button::new(seen.say_text(words::WALK_GO));
             if ui.add(go).clicked() {
-                walk_now(walk, out);
+                walk_now(walk, seen.out);
                 self.walk = None;
             }
             if ui.button(seen.say_text(crate::words::shell::CANCEL)).clicked() {
@@ -99,7 +99,7 @@ impl HistoryPane {
         });
     }
 
-    fn handle_clicked_operation(&mut self, row: &HistoryRow, out: &mut CommandOutbox) {
+    fn handle_clicked_operation(&mut self, row: &HistoryRow, out: &CommandOutbox) {
         let walk = match row.standing {
             OperationStanding::Stands(0) | OperationStanding::Gone => None,
             OperationStanding::Stands(steps) => Some((true, steps)),
@@ -113,7 +113,7 @@ impl HistoryPane {
         self.ask_history_walk(HistoryWalk { to, back, steps }, out);
     }
 
-    fn ask_history_walk(&mut self, walk: HistoryWalk, out: &mut CommandOutbox) {
+    fn ask_history_walk(&mut self, walk: HistoryWalk, out: &CommandOutbox) {
         if walk.steps == 1 {
             walk_now(walk, out);
             self.walk = None;
@@ -132,22 +132,22 @@ impl HistoryPane {
     }
 }
 
-fn walk_now(walk: HistoryWalk, out: &mut CommandOutbox) {
+fn walk_now(walk: HistoryWalk, out: &CommandOutbox) {
     let (back, steps) = (walk.back, walk.steps);
     out.request_work(whole_corpus::walk_operations_job(back, steps));
 }
 
 impl PaneInterface for HistoryPane {
-    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         self.update_history_rows(seen);
-        self.show_history_buttons(ui, seen, out);
-        history_conflicts::show_open_conflicts(ui, seen, out);
+        self.show_history_buttons(ui, seen);
+        history_conflicts::show_open_conflicts(ui, seen);
         let operations = &seen.snapshot.overview.operations;
         if operations.is_empty() {
             ui.label(seen.say_text(words::EMPTY));
             return;
         }
-        self.confirmation(ui, seen, out);
+        self.confirmation(ui, seen);
         if self.rows.is_empty() {
             ui.weak(seen.say_text(words::NONE_FIT));
         }
@@ -162,10 +162,10 @@ impl PaneInterface for HistoryPane {
                     match self.rows.get(at).cloned() {
                         Some(row) => {
                             if self.show_history_row(ui, seen, height, &row) {
-                                self.handle_clicked_operation(&row, out);
+                                self.handle_clicked_operation(&row, seen.out);
                             }
                         }
-                        None => self.show_history_beginning(ui, seen, out),
+                        None => self.show_history_beginning(ui, seen),
                     }
                 }
             });
@@ -173,12 +173,12 @@ impl PaneInterface for HistoryPane {
 }
 
 impl HistoryPane {
-    fn show_history_beginning(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn show_history_beginning(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         let steps = history_data::count_standing_operations(&seen.snapshot.overview.operations);
         let button = Button::new(seen.say_text(words::BEGINNING)).frame(false);
         if ui.add_enabled(steps > 0, button).clicked() {
             let (to, back) = (None, true);
-            self.ask_history_walk(HistoryWalk { to, back, steps }, out);
+            self.ask_history_walk(HistoryWalk { to, back, steps }, seen.out);
         }
     }
 

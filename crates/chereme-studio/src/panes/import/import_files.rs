@@ -7,7 +7,7 @@ use eframe::egui::{Align, CollapsingHeader, ComboBox, Grid, Id, RichText, Role, 
 
 use super::import_known::ImportCorrections;
 use super::{import_body, import_data, import_people};
-use crate::command::{CommandOutbox, WindowCommand};
+use crate::command::WindowCommand;
 use crate::context::PaneInput;
 use crate::panes::complete_pane::{CompletionLine, fitting_candidates, show_completion_line};
 use crate::panes::timeline::tier_box;
@@ -22,7 +22,6 @@ pub(super) fn show_file_report(
     file: &FileReport,
     open: bool,
     dry: bool,
-    out: &mut CommandOutbox,
 ) {
     let name = Path::new(&file.path).file_name().unwrap_or_default().to_string_lossy();
     let colour = match file.status {
@@ -49,8 +48,8 @@ pub(super) fn show_file_report(
                 if let Some(there) = there.filter(|_| !dry)
                     && ui.small_button(seen.say_text(words::SHOW)).clicked()
                 {
-                    out.send_command(WindowCommand::Recording(there.row.id));
-                    out.send_command(WindowCommand::Look);
+                    seen.send_command(WindowCommand::Recording(there.row.id));
+                    seen.send_command(WindowCommand::Look);
                 }
             });
         }

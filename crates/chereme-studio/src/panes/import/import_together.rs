@@ -7,7 +7,7 @@ use chereme_corpus::MergeReport;
 use eframe::egui::{Button, RichText, ScrollArea, Ui};
 
 use crate::action::Action;
-use crate::command::{CommandOutbox, WindowCommand};
+use crate::command::WindowCommand;
 use crate::context::PaneInput;
 use crate::panes::show_running_work;
 use crate::words::{fill_text_braces, import_words as words, merge_words, translate_library_message};
@@ -22,29 +22,28 @@ pub(super) fn is_corpus(path: &Path) -> bool {
 pub(super) fn show_corpus_merge(
     ui: &mut Ui,
     seen: &PaneInput<'_>,
-    out: &mut CommandOutbox,
     path: &Path,
     running: Option<WorkId>,
     report: Option<&MergeReport>,
 ) -> Option<WorkId> {
     ui.label(seen.say_text(words::MERGE_ABOUT));
-    if ui.horizontal(|ui| show_running_work(ui, seen, running, out)).inner {
+    if ui.horizontal(|ui| show_running_work(ui, seen, running)).inner {
         return None;
     }
     let mut begun = None;
     let open = !seen.snapshot.is_read_only();
     let button = Button::new(RichText::new(seen.say_text(words::MERGE)).strong());
     if ui.add_enabled(open, button).clicked() {
-        begun = Some(out.request_work(whole_corpus::merge_corpus_job(path.to_owned())));
+        begun = Some(seen.request_work(whole_corpus::merge_corpus_job(path.to_owned())));
     }
     if let Some(report) = report {
         ui.separator();
-        outcome(ui, seen, out, report);
+        outcome(ui, seen, report);
     }
     begun
 }
 
-fn outcome(ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox, report: &MergeReport) {
+fn outcome(ui: &mut Ui, seen: &PaneInput<'_>, report: &MergeReport) {
     let lines = merge_report_lines(report, &|text| seen.say_text(text));
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         for line in lines {
@@ -60,7 +59,7 @@ fn outcome(ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox, report: &
         let n = report.conflicts.len();
         ui.label(fill_text_braces(seen.say_text(words::MERGE_CONFLICTS), &[("n", &n)]));
         if ui.button(seen.say_text(words::MERGE_DECIDE)).clicked() {
-            out.send_command(WindowCommand::Do(Action::ShowHistory));
+            seen.send_command(WindowCommand::Do(Action::ShowHistory));
         }
     });
 }

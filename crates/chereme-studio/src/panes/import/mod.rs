@@ -74,7 +74,7 @@ impl ImportPane {
         }
     }
 
-    fn request_import(&mut self, dry_run: bool, out: &mut CommandOutbox) {
+    fn request_import(&mut self, dry_run: bool, out: &CommandOutbox) {
         if let Some(old) = self.asked.take() {
             out.send_command(WindowCommand::Stop(old));
         }
@@ -84,7 +84,7 @@ impl ImportPane {
         self.asked = Some(out.request_work(exchange::import_files_job(self.paths_to_examine(), options)));
     }
 
-    fn choosing(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn choosing(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         let label = ui.label(RichText::new(seen.say_text(words::PATH)).small());
         let id = Id::unique("import path");
         let line = CompletionLine {
@@ -103,14 +103,14 @@ impl ImportPane {
         // After a folder is taken from the list, its contents are offered next.
         let is_whole_path = !changed || !self.path.ends_with('/');
         if entered && is_whole_path && !self.paths_to_examine().is_empty() && self.corpus_to_merge().is_none() {
-            self.request_import(true, out);
+            self.request_import(true, seen.out);
         }
         ui.horizontal_wrapped(|ui| {
             if ui.button(seen.say_text(words::CHOOSE_FILES)).clicked() {
-                out.send_command(WindowCommand::Choose(ChooserPurpose::Files));
+                seen.send_command(WindowCommand::Choose(ChooserPurpose::Files));
             }
             if ui.button(seen.say_text(words::CHOOSE_FOLDER)).clicked() {
-                out.send_command(WindowCommand::Choose(ChooserPurpose::Folder));
+                seen.send_command(WindowCommand::Choose(ChooserPurpose::Folder));
             }
         });
         if self.path.trim().is_empty() {
@@ -124,7 +124,7 @@ impl ImportPane {
         }
     }
 
-    fn show_import_buttons(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn show_import_buttons(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         let running = self.asked.and_then(|id| seen.running.get(&id));
         if let (Some(running), Some(id)) = (running, self.asked) {
             // At the other end from the buttons that are clicked before and after this one.
@@ -139,7 +139,7 @@ impl ImportPane {
                 let cancel = Button::new(seen.say_text(shell::CANCEL));
                 ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                     if ui.add(cancel).clicked() {
-                        out.send_command(WindowCommand::Stop(id));
+                        seen.send_command(WindowCommand::Stop(id));
                     }
                     let task = eframe::egui::Label::new(&running.far.task);
                     ui.add(task.truncate());
@@ -155,7 +155,7 @@ impl ImportPane {
             if !looked || changed {
                 let look = Button::new(seen.say_text(text));
                 if ui.add_enabled(ready, look).clicked() {
-                    self.request_import(true, out);
+                    self.request_import(true, seen.out);
                 }
             }
             let any = self.report.as_ref().is_some_and(|report| {
@@ -172,12 +172,12 @@ impl ImportPane {
                 words::LOOK_FIRST
             };
             if take.on_disabled_hover_text(seen.say_text(tip)).clicked() {
-                self.request_import(false, out);
+                self.request_import(false, seen.out);
             }
         });
     }
 
-    fn show_import_report(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn show_import_report(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         let Some(report) = self.report.take() else {
             if self.wrong.is_none() && !seen.is_running(self.asked) {
                 ui.weak(seen.say_text(words::NOTHING));
@@ -195,7 +195,7 @@ impl ImportPane {
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             let open = report.files.len() <= 2;
             for file in import_data::files_by_attention(&report) {
-                import_files::show_file_report(&mut self.corrections, ui, seen, file, open, report.dry_run, out);
+                import_files::show_file_report(&mut self.corrections, ui, seen, file, open, report.dry_run);
             }
         });
         self.report = Some(report);
@@ -203,21 +203,21 @@ impl ImportPane {
 }
 
 impl PaneInterface for ImportPane {
-    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
-        self.choosing(ui, seen, out);
+    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
+        self.choosing(ui, seen);
         let other = self.corpus_to_merge();
         if std::mem::take(&mut self.fresh) && other.is_none() {
-            self.request_import(true, out);
+            self.request_import(true, seen.out);
         }
         if let Some(other) = &other {
             let report = self.merged.as_ref();
-            if let Some(begun) = import_together::show_corpus_merge(ui, seen, out, other, self.asked, report) {
+            if let Some(begun) = import_together::show_corpus_merge(ui, seen, other, self.asked, report) {
                 self.asked = Some(begun);
                 (self.merged, self.wrong, self.stopped) = (None, None, false);
             }
         } else {
             import_known::show_import_corrections(&mut self.corrections, ui, seen);
-            self.show_import_buttons(ui, seen, out);
+            self.show_import_buttons(ui, seen);
         }
         if let Some((wrong, remedy)) = &self.wrong {
             let message = translate_library_message(wrong, seen.language);
@@ -233,7 +233,7 @@ impl PaneInterface for ImportPane {
             ui.label(seen.say_text(shell::STOPPED));
         }
         if other.is_none() {
-            self.show_import_report(ui, seen, out);
+            self.show_import_report(ui, seen);
         }
     }
 

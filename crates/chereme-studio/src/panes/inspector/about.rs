@@ -17,7 +17,7 @@ use super::inspector_edit::{
 };
 use super::inspector_ui::{show_inspector_lines, show_thing_link};
 use super::{InspectorPane, inspector_data};
-use crate::command::{ChooserPurpose, CommandOutbox, WindowCommand};
+use crate::command::{ChooserPurpose, WindowCommand};
 use crate::context::PaneInput;
 use crate::model::InspectedThing;
 use crate::panes::complete_pane::fitting_candidates;
@@ -27,43 +27,35 @@ use crate::panes::timeline::timeline_data::time_text;
 use crate::words::{InterfaceText, fill_text_braces, inspector as words};
 use crate::work::recordings_jobs;
 
-pub(super) fn show_recording_details(
-    ui: &mut Ui,
-    seen: &PaneInput<'_>,
-    glance: &RecordingGlance,
-    out: &mut CommandOutbox,
-) {
+pub(super) fn show_recording_details(ui: &mut Ui, seen: &PaneInput<'_>, glance: &RecordingGlance) {
     let row = &glance.row;
-    let change = |out: &mut CommandOutbox, change: RecordingChange| {
-        out.request_work(recordings_jobs::change_recording(RowName::Number(row.id), change));
+    let change = |change: RecordingChange| {
+        seen.request_work(recordings_jobs::change_recording(RowName::Number(row.id), change));
     };
     let key = |what: &str| Id::unique(("recording", row.id, what.to_owned()));
     show_inspector_grid(ui, "recording", |ui| {
         if let Some(name) = show_editable_line(ui, seen, key("name"), words::NAME, &row.name) {
-            change(out, new_change(|asked: &mut RecordingChange| asked.name = Some(name)));
+            change(new_change(|asked: &mut RecordingChange| asked.name = Some(name)));
         }
         let signers = &seen.snapshot.overview.signers;
         let candidates = |typed: &str| fitting_candidates(signers.iter().map(|signer| signer.name.as_str()), typed);
         let now = row.signer.clone().unwrap_or_default();
         if let Some(name) = show_line_with_completion(ui, seen, key("signer"), words::SIGNER, &now, &candidates) {
-            change(
-                out,
-                new_change(|asked: &mut RecordingChange| asked.signer = Some(none_if_blank(name))),
-            );
+            change(new_change(|asked: &mut RecordingChange| {
+                asked.signer = Some(none_if_blank(name))
+            }));
         }
         let now = row.licence.clone().unwrap_or_default();
         if let Some(text) = show_editable_line(ui, seen, key("licence"), words::LICENCE, &now) {
-            change(
-                out,
-                new_change(|asked: &mut RecordingChange| asked.licence = Some(none_if_blank(text))),
-            );
+            change(new_change(|asked: &mut RecordingChange| {
+                asked.licence = Some(none_if_blank(text))
+            }));
         }
         let now = row.notes.clone().unwrap_or_default();
         if let Some(text) = show_editable_notes(ui, seen, key("notes"), &now) {
-            change(
-                out,
-                new_change(|asked: &mut RecordingChange| asked.notes = Some(none_if_blank(text))),
-            );
+            change(new_change(|asked: &mut RecordingChange| {
+                asked.notes = Some(none_if_blank(text))
+            }));
         }
     });
     let origin = |source: library::RecordingOrigin| seen.say_text(source.recording_origin_text()).to_owned();
@@ -76,7 +68,7 @@ pub(super) fn show_recording_details(
     if let Some(recipe) = &glance.recipe {
         ui.weak(seen.snapshot.name_tokens_in_text(recipe));
         if ui.button(seen.say_text(words::OPEN_RECIPE)).clicked() {
-            out.send_command(WindowCommand::Recipe(recipe.clone(), Some(row.name.clone())));
+            seen.send_command(WindowCommand::Recipe(recipe.clone(), Some(row.name.clone())));
         }
     }
 }
@@ -85,7 +77,7 @@ pub(super) fn none_if_blank(text: String) -> Option<String> {
     Some(text.trim().to_owned()).filter(|text| !text.is_empty())
 }
 
-pub(super) fn recording_more(ui: &mut Ui, seen: &PaneInput<'_>, it: &RecordingDetails, out: &mut CommandOutbox) {
+pub(super) fn recording_more(ui: &mut Ui, seen: &PaneInput<'_>, it: &RecordingDetails) {
     show_inspector_grid(ui, "recording file", |ui| {
         let lexicons = &seen.snapshot.overview.lexicons;
         if !lexicons.is_empty() {
@@ -93,7 +85,7 @@ pub(super) fn recording_more(ui: &mut Ui, seen: &PaneInput<'_>, it: &RecordingDe
             let named = lexicons.iter().map(|row| (Some(row.name.clone()), row.name.clone()));
             let all: Vec<(Option<String>, String)> = [none].into_iter().chain(named).collect();
             if let Some(lexicon) = show_inspector_choice(ui, seen, words::LEXICON, &it.lexicon, &all) {
-                out.request_work(recordings_jobs::link_lexicon_job(it.id, lexicon));
+                seen.request_work(recordings_jobs::link_lexicon_job(it.id, lexicon));
             }
         }
         if let Some(metres) = it.metres_per_unit {
@@ -121,9 +113,9 @@ pub(super) fn recording_more(ui: &mut Ui, seen: &PaneInput<'_>, it: &RecordingDe
         }
     });
     let who = CorpusAddress::Recording(RowName::Number(it.id));
-    show_consent(ui, seen, who, &it.consent, out);
+    show_consent(ui, seen, who, &it.consent);
     show_recording_tracks(ui, seen, it);
-    show_recording_media(ui, seen, it, out);
+    show_recording_media(ui, seen, it);
     if it.roles.is_empty() {
         return;
     }
@@ -177,16 +169,16 @@ fn show_recording_tracks(ui: &mut Ui, seen: &PaneInput<'_>, it: &RecordingDetail
 }
 
 /// Shows the media files of a recording: whether they exist, and how to link them.
-fn show_recording_media(ui: &mut Ui, seen: &PaneInput<'_>, it: &RecordingDetails, out: &mut CommandOutbox) {
-    let change = |out: &mut CommandOutbox, change: MediaChange| {
-        out.request_work(recordings_jobs::change_media(RowName::Number(it.id), change));
+fn show_recording_media(ui: &mut Ui, seen: &PaneInput<'_>, it: &RecordingDetails) {
+    let change = |change: MediaChange| {
+        seen.request_work(recordings_jobs::change_media(RowName::Number(it.id), change));
     };
     for (at, place) in it.media.iter().enumerate() {
         let track = &place.track;
         show_inspector_grid(ui, &format!("media {at}"), |ui| {
             let key = Id::unique(("media", track.id));
             if let Some(url) = show_editable_line(ui, seen, key, words::MEDIA, &track.url) {
-                change(out, MediaChange::Move(track.id, url));
+                change(MediaChange::Move(track.id, url));
             }
         });
         let path = place.path.as_ref().map(|path| path.display().to_string());
@@ -199,28 +191,28 @@ fn show_recording_media(ui: &mut Ui, seen: &PaneInput<'_>, it: &RecordingDetails
         ui.add(Label::new(RichText::new(text).small().color(colour)).wrap());
         ui.horizontal_wrapped(|ui| {
             if ui.small_button(seen.say_text(words::MEDIA_FIND)).clicked() {
-                out.send_command(WindowCommand::Choose(ChooserPurpose::Media(it.id, Some(track.id))));
+                seen.send_command(WindowCommand::Choose(ChooserPurpose::Media(it.id, Some(track.id))));
             }
             if ui.small_button(seen.say_text(words::MEDIA_REMOVE)).clicked() {
-                change(out, MediaChange::Remove(track.id));
+                change(MediaChange::Remove(track.id));
             }
         });
     }
     let hint = seen.say_text(words::MEDIA_HINT);
     let add = ui.small_button(seen.say_text(words::MEDIA_ADD)).on_hover_text(hint);
     if add.clicked() {
-        out.send_command(WindowCommand::Choose(ChooserPurpose::Media(it.id, None)));
+        seen.send_command(WindowCommand::Choose(ChooserPurpose::Media(it.id, None)));
     }
 }
 
-pub(super) fn show_signer_details(ui: &mut Ui, seen: &PaneInput<'_>, row: &PersonContents, out: &mut CommandOutbox) {
-    let change = |out: &mut CommandOutbox, change: SignerChange| {
-        out.request_work(recordings_jobs::change_signer(RowName::Number(row.id), change));
+pub(super) fn show_signer_details(ui: &mut Ui, seen: &PaneInput<'_>, row: &PersonContents) {
+    let change = |change: SignerChange| {
+        seen.request_work(recordings_jobs::change_signer(RowName::Number(row.id), change));
     };
     show_inspector_grid(ui, "signer", |ui| {
         let key = Id::unique(("signer name", row.id));
         if let Some(name) = show_editable_line(ui, seen, key, words::NAME, &row.name) {
-            change(out, new_change(|asked: &mut SignerChange| asked.name = Some(name)));
+            change(new_change(|asked: &mut SignerChange| asked.name = Some(name)));
         }
         let all: Vec<(Option<String>, String)> = [
             (None, words::UNKNOWN),
@@ -234,26 +226,24 @@ pub(super) fn show_signer_details(ui: &mut Ui, seen: &PaneInput<'_>, row: &Perso
                 "left" => BodySide::Left,
                 _ => BodySide::Right,
             };
-            change(
-                out,
-                new_change(|asked: &mut SignerChange| asked.handedness = Some(hand.map(side))),
-            );
+            change(new_change(|asked: &mut SignerChange| {
+                asked.handedness = Some(hand.map(side))
+            }));
         }
         let key = Id::unique(("signer notes", row.id));
         let now = row.notes.clone().unwrap_or_default();
         if let Some(text) = show_editable_notes(ui, seen, key, &now) {
-            change(
-                out,
-                new_change(|asked: &mut SignerChange| asked.notes = Some(none_if_blank(text))),
-            );
+            change(new_change(|asked: &mut SignerChange| {
+                asked.notes = Some(none_if_blank(text))
+            }));
         }
     });
 }
 
 /// Shows the other names and the attributes of a person, and a field that makes them one with somebody else.
-fn show_person_details(ui: &mut Ui, seen: &PaneInput<'_>, person: &PersonContents, out: &mut CommandOutbox) {
-    let change = |out: &mut CommandOutbox, change: PersonChange| {
-        out.request_work(recordings_jobs::change_person(RowName::Number(person.id), change));
+fn show_person_details(ui: &mut Ui, seen: &PaneInput<'_>, person: &PersonContents) {
+    let change = |change: PersonChange| {
+        seen.request_work(recordings_jobs::change_person(RowName::Number(person.id), change));
     };
     let key = |what: &'static str| Id::unique(("person", what, person.id));
     show_inspector_grid(ui, "person", |ui| {
@@ -262,28 +252,21 @@ fn show_person_details(ui: &mut Ui, seen: &PaneInput<'_>, person: &PersonContent
             let wanted: Vec<String> = listed_parts(&text).map(str::to_owned).collect();
             let gone = person.aliases.iter().filter(|alias| !wanted.contains(alias));
             let remove_aliases = gone.cloned().collect();
-            change(
-                out,
-                new_change(|asked: &mut PersonChange| {
-                    asked.remove_aliases = remove_aliases;
-                    asked.add_aliases = wanted;
-                }),
-            );
+            change(new_change(|asked: &mut PersonChange| {
+                asked.remove_aliases = remove_aliases;
+                asked.add_aliases = wanted;
+            }));
         }
         let now = attributes_line(&person.attributes);
         if let Some(text) = show_editable_line(ui, seen, key("attributes"), words::ATTRIBUTES, &now) {
-            change(
-                out,
-                new_change(|asked: &mut PersonChange| asked.attributes = changed_attributes(&person.attributes, &text)),
-            );
+            change(new_change(|asked: &mut PersonChange| {
+                asked.attributes = changed_attributes(&person.attributes, &text)
+            }));
         }
         if let Some(first) = person.attributes.first() {
             let all = audience_choices(seen, words::SEEN_BY_ME);
             if let Some(audience) = show_inspector_choice(ui, seen, words::ATTRIBUTES_SEEN_BY, &first.audience, &all) {
-                change(
-                    out,
-                    new_change(|asked: &mut PersonChange| asked.audience = Some(audience)),
-                );
+                change(new_change(|asked: &mut PersonChange| asked.audience = Some(audience)));
             }
         }
         let others = seen.snapshot.overview.people.iter().filter(|row| row.id != person.id);
@@ -293,7 +276,7 @@ fn show_person_details(ui: &mut Ui, seen: &PaneInput<'_>, person: &PersonContent
             && !name.trim().is_empty()
         {
             let into = RowName::Text(name.trim().to_owned());
-            out.request_work(recordings_jobs::unite_people(RowName::Number(person.id), into));
+            seen.request_work(recordings_jobs::unite_people(RowName::Number(person.id), into));
         }
     });
     if person.participant_tiers + person.annotator_tiers > 0 {
@@ -307,12 +290,12 @@ fn show_person_details(ui: &mut Ui, seen: &PaneInput<'_>, person: &PersonContent
         ui.weak(text);
     }
     if person.annotator_tiers > 0 {
-        show_preference(ui, seen, &person.name, out);
+        show_preference(ui, seen, &person.name);
     }
 }
 
 /// Shows whether the values of an annotator count before those of others, to change.
-pub(super) fn show_preference(ui: &mut Ui, seen: &PaneInput<'_>, annotator: &str, out: &mut CommandOutbox) {
+pub(super) fn show_preference(ui: &mut Ui, seen: &PaneInput<'_>, annotator: &str) {
     let mut preferred = seen.snapshot.overview.preferred_annotator.as_deref() == Some(annotator);
     let box_response = ui.checkbox(&mut preferred, seen.say_text(words::PREFERRED));
     if box_response
@@ -320,7 +303,7 @@ pub(super) fn show_preference(ui: &mut Ui, seen: &PaneInput<'_>, annotator: &str
         .changed()
     {
         let name = preferred.then(|| annotator.to_owned());
-        out.request_work(recordings_jobs::prefer_annotator_job(name));
+        seen.request_work(recordings_jobs::prefer_annotator_job(name));
     }
 }
 
@@ -336,7 +319,7 @@ fn audience_choices(seen: &PaneInput<'_>, narrowest: InterfaceText) -> Vec<(Cons
 }
 
 /// Shows what a person or a recording agreed to, to change.
-fn show_consent(ui: &mut Ui, seen: &PaneInput<'_>, who: CorpusAddress, now: &PersonConsent, out: &mut CommandOutbox) {
+fn show_consent(ui: &mut Ui, seen: &PaneInput<'_>, who: CorpusAddress, now: &PersonConsent) {
     let title = RichText::new(seen.say_text(words::AGREED)).small();
     let is_person = matches!(who, CorpusAddress::Signer(_));
     let folded = CollapsingHeader::new(title).id_salt("agreed").default_open(is_person);
@@ -364,7 +347,7 @@ fn show_consent(ui: &mut Ui, seen: &PaneInput<'_>, who: CorpusAddress, now: &Per
         });
         ui.add(Label::new(RichText::new(seen.say_text(words::AGREED_HINT)).small().weak()).wrap());
         if change != ConsentChange::default() {
-            out.request_work(recordings_jobs::change_consent_job(who, change));
+            seen.request_work(recordings_jobs::change_consent_job(who, change));
         }
     });
 }
@@ -397,16 +380,10 @@ fn changed_attributes(attributes: &[PersonAttribute], line: &str) -> BTreeMap<St
     changed
 }
 
-pub(super) fn signer_more(
-    it: &mut InspectorPane,
-    ui: &mut Ui,
-    seen: &PaneInput<'_>,
-    signer: &SignerDetails,
-    out: &mut CommandOutbox,
-) {
-    show_person_details(ui, seen, &signer.person, out);
+pub(super) fn signer_more(it: &mut InspectorPane, ui: &mut Ui, seen: &PaneInput<'_>, signer: &SignerDetails) {
+    show_person_details(ui, seen, &signer.person);
     let who = CorpusAddress::Signer(RowName::Number(signer.person.id));
-    show_consent(ui, seen, who, &signer.consent, out);
+    show_consent(ui, seen, who, &signer.consent);
     show_inspector_lines(ui, seen, "measures", &inspector_data::body_measure_lines(signer));
     let n = signer.recordings.len();
     let text = format!("{} ({n})", seen.say_text(words::RECORDINGS));
@@ -417,13 +394,7 @@ pub(super) fn signer_more(
     });
 }
 
-pub(super) fn show_sign_details(
-    it: &mut InspectorPane,
-    ui: &mut Ui,
-    seen: &PaneInput<'_>,
-    sign: &SignDetails,
-    out: &mut CommandOutbox,
-) {
+pub(super) fn show_sign_details(it: &mut InspectorPane, ui: &mut Ui, seen: &PaneInput<'_>, sign: &SignDetails) {
     show_part_title(ui, seen.say_text(words::SIGN), &sign.gloss);
     if let Some(lexicon) = &sign.lexicon {
         show_inspector_grid(ui, "sign lexicon", |ui| {
@@ -442,25 +413,24 @@ pub(super) fn show_sign_details(
                 && !text.trim().is_empty()
             {
                 let into = text.trim().to_owned();
-                out.request_work(recordings_jobs::unite_lexicons_job(lexicon.clone(), into));
+                seen.request_work(recordings_jobs::unite_lexicons_job(lexicon.clone(), into));
             }
         });
     }
-    let change = |out: &mut CommandOutbox, change: SignChange| {
-        out.request_work(recordings_jobs::change_sign(RowName::Number(sign.id), change));
+    let change = |change: SignChange| {
+        seen.request_work(recordings_jobs::change_sign(RowName::Number(sign.id), change));
     };
     show_inspector_grid(ui, "sign", |ui| {
         let key = Id::unique(("sign gloss", sign.id));
         if let Some(gloss) = show_editable_line(ui, seen, key, words::GLOSS, &sign.gloss) {
-            change(out, new_change(|asked: &mut SignChange| asked.gloss = Some(gloss)));
+            change(new_change(|asked: &mut SignChange| asked.gloss = Some(gloss)));
         }
         let key = Id::unique(("sign notes", sign.id));
         let now = sign.notes.clone().unwrap_or_default();
         if let Some(text) = show_editable_notes(ui, seen, key, &now) {
-            change(
-                out,
-                new_change(|asked: &mut SignChange| asked.notes = Some(none_if_blank(text))),
-            );
+            change(new_change(|asked: &mut SignChange| {
+                asked.notes = Some(none_if_blank(text))
+            }));
         }
         for (language, text) in &sign.texts {
             ui.weak(language);
@@ -468,12 +438,9 @@ pub(super) fn show_sign_details(
                 ui.label(text);
                 let tip = fill_text_braces(seen.say_text(words::REMOVE), &[("what", text)]);
                 if ui.small_button("×").on_hover_text(tip).clicked() {
-                    change(
-                        out,
-                        new_change(|asked: &mut SignChange| {
-                            asked.remove_texts = vec![(language.clone(), text.clone())]
-                        }),
-                    );
+                    change(new_change(|asked: &mut SignChange| {
+                        asked.remove_texts = vec![(language.clone(), text.clone())]
+                    }));
                 }
             });
             ui.end_row();
@@ -507,10 +474,9 @@ pub(super) fn show_sign_details(
         let key = Id::unique(("sign text", sign.id));
         let language = seen.language.language_code();
         if let Some(text) = show_editable_line(ui, seen, key, words::TEXT_NEW, "") {
-            change(
-                out,
-                new_change(|asked: &mut SignChange| asked.add_texts = vec![(language.to_owned(), text)]),
-            );
+            change(new_change(|asked: &mut SignChange| {
+                asked.add_texts = vec![(language.to_owned(), text)]
+            }));
         }
     });
     ui.separator();
@@ -531,13 +497,7 @@ pub(super) fn show_sign_details(
     }
 }
 
-pub(super) fn show_inventory_value(
-    it: &mut InspectorPane,
-    ui: &mut Ui,
-    seen: &PaneInput<'_>,
-    details: &ValueDetails,
-    out: &mut CommandOutbox,
-) {
+pub(super) fn show_inventory_value(it: &mut InspectorPane, ui: &mut Ui, seen: &PaneInput<'_>, details: &ValueDetails) {
     let ValueDetails { inventory, uses, .. } = *details;
     let id = details.value.as_str();
     let stored = seen
@@ -577,14 +537,14 @@ pub(super) fn show_inventory_value(
             name_and_value(ui, seen, words::NOTES, notes);
         }
         name_and_value(ui, seen, words::USES, &uses.to_string());
-        show_equal_values(it, ui, seen, stored, details, out);
+        show_equal_values(it, ui, seen, stored, details);
     });
     if let Some(text) = &value.hamnosys {
         super::inspector_token::show_hamnosys_notation(ui, seen, text);
     }
     if uses > 0 && ui.button(seen.say_text(words::SEARCH_USES)).clicked() {
         let field = stored.inventory_field().to_string();
-        out.send_command(WindowCommand::Find(crate::panes::search::with_value("", &field, id)));
+        seen.send_command(WindowCommand::Find(crate::panes::search::with_value("", &field, id)));
     }
 }
 
@@ -595,7 +555,6 @@ fn show_equal_values(
     seen: &PaneInput<'_>,
     inventory: &ComponentInventory,
     details: &ValueDetails,
-    out: &mut CommandOutbox,
 ) {
     let overview = &seen.snapshot.overview;
     let own = format!("{}/{}", inventory.id, details.value);
@@ -618,7 +577,7 @@ fn show_equal_values(
     if group.is_some() {
         ui.weak("");
         if ui.button(seen.say_text(words::NOT_SAME)).clicked() {
-            out.request_work(recordings_jobs::part_value_job(own.clone()));
+            seen.request_work(recordings_jobs::part_value_job(own.clone()));
         }
         ui.end_row();
     }
@@ -626,7 +585,7 @@ fn show_equal_values(
         ui.weak(seen.say_text(words::PERHAPS_SAME));
         let text = fill_text_braces(seen.say_text(words::MAKE_SAME), &[("value", name)]);
         if ui.button(text).on_hover_text(reasons.join(", ")).clicked() {
-            out.request_work(recordings_jobs::equate_values_job(own.clone(), name.to_string()));
+            seen.request_work(recordings_jobs::equate_values_job(own.clone(), name.to_string()));
         }
         ui.end_row();
     }
@@ -643,7 +602,7 @@ fn show_equal_values(
     if let Some(text) = show_line_with_completion(ui, seen, key, words::SAME_VALUE_AS, "", &candidates)
         && !text.trim().is_empty()
     {
-        out.request_work(recordings_jobs::equate_values_job(own, text.trim().to_owned()));
+        seen.request_work(recordings_jobs::equate_values_job(own, text.trim().to_owned()));
     }
 }
 

@@ -9,35 +9,23 @@ use super::inspector_data;
 use super::inspector_edit::{
     name_and_value, new_change, show_editable_line, show_inspector_choice, show_inspector_grid,
 };
-use crate::command::CommandOutbox;
 use crate::context::PaneInput;
 use crate::words::{fill_text_braces, inspector as words};
 use crate::work::editing;
 
-pub(super) fn show_tier_details(
-    ui: &mut Ui,
-    seen: &PaneInput<'_>,
-    tier: &chereme_corpus::TierContents,
-    out: &mut CommandOutbox,
-) {
+pub(super) fn show_tier_details(ui: &mut Ui, seen: &PaneInput<'_>, tier: &chereme_corpus::TierContents) {
     let row = &tier.row;
-    let change = |out: &mut CommandOutbox, change: TierPropertyChange| {
-        out.request_work(editing::change_tier_job(TierRequestName::Number(row.id), change));
+    let change = |change: TierPropertyChange| {
+        seen.request_work(editing::change_tier_job(TierRequestName::Number(row.id), change));
     };
     show_inspector_grid(ui, "tier", |ui| {
         let key = Id::unique(("tier name", row.id));
         if let Some(name) = show_editable_line(ui, seen, key, words::NAME, &row.name) {
-            change(
-                out,
-                new_change(|asked: &mut TierPropertyChange| asked.name = Some(name)),
-            );
+            change(new_change(|asked: &mut TierPropertyChange| asked.name = Some(name)));
         }
         name_and_value(ui, seen, words::ROLE, &row.role.role_name());
         if let Some(hand) = show_inspector_choice(ui, seen, words::HAND, &row.hand, &hand_choices(seen)) {
-            change(
-                out,
-                new_change(|asked: &mut TierPropertyChange| asked.hand = Some(hand)),
-            );
+            change(new_change(|asked: &mut TierPropertyChange| asked.hand = Some(hand)));
         }
         if let Some(inventory) = show_inspector_choice(
             ui,
@@ -51,10 +39,9 @@ pub(super) fn show_tier_details(
                 Some(it) => TierValueSource::Inventory(it.inventory.id.clone()),
                 None => TierValueSource::Free,
             };
-            change(
-                out,
-                new_change(|asked: &mut TierPropertyChange| asked.values = Some(tier_values)),
-            );
+            change(new_change(|asked: &mut TierPropertyChange| {
+                asked.values = Some(tier_values)
+            }));
         }
         let above = seen.snapshot.open.as_ref().and_then(|open| {
             let tiers = &open.contents.tiers;
@@ -82,7 +69,7 @@ pub(super) fn show_tier_details(
         );
     });
     if let Some(annotator) = &row.annotator {
-        super::about::show_preference(ui, seen, annotator, out);
+        super::about::show_preference(ui, seen, annotator);
     }
 }
 

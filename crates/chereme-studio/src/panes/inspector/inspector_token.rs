@@ -8,7 +8,7 @@ use super::inspector_data::{self, CodingRow};
 use super::inspector_edit::{name_and_value, show_editable_field, show_inspector_grid};
 use super::inspector_ui::{set_annotation, show_thing_link, span_text, values_like};
 use super::{InspectorPane, inspector_notation};
-use crate::command::{CommandOutbox, WindowCommand};
+use crate::command::WindowCommand;
 use crate::context::PaneInput;
 use crate::model::InspectedThing;
 use crate::panes::library::library_data::origin_text;
@@ -20,13 +20,7 @@ use crate::pickers::pickers_hamnosys;
 use crate::words::inspector as words;
 use crate::work::recordings_jobs;
 
-pub(super) fn show_token_details(
-    it: &mut InspectorPane,
-    ui: &mut Ui,
-    seen: &PaneInput<'_>,
-    token: &TokenDetails,
-    out: &mut CommandOutbox,
-) {
+pub(super) fn show_token_details(it: &mut InspectorPane, ui: &mut Ui, seen: &PaneInput<'_>, token: &TokenDetails) {
     let row = &token.row;
     show_inspector_grid(ui, "token", |ui| {
         ui.weak(seen.say_text(words::SIGN));
@@ -50,10 +44,10 @@ pub(super) fn show_token_details(
         if row.citation {
             ui.label(seen.say_text(words::CITATION_IS));
         } else if ui.small_button(seen.say_text(words::CITATION_MAKE)).clicked() {
-            out.request_work(recordings_jobs::set_citation(CorpusAddress::Token(row.id)));
+            seen.request_work(recordings_jobs::set_citation(CorpusAddress::Token(row.id)));
         }
         ui.end_row();
-        show_token_coding(it, ui, seen, token, out);
+        show_token_coding(it, ui, seen, token);
         if let Some(recipe) = &token.recipe {
             name_and_value(ui, seen, words::RECIPE, &seen.snapshot.name_tokens_in_text(recipe));
         }
@@ -90,23 +84,23 @@ pub(super) fn show_token_details(
             && ui.button(seen.say_text(words::OPEN_RECIPE)).clicked()
         {
             let opened = row.recording.clone().or(Some(row.gloss.clone()));
-            out.send_command(WindowCommand::Recipe(recipe.clone(), opened));
+            seen.send_command(WindowCommand::Recipe(recipe.clone(), opened));
         }
         if row.recording_id.is_some() && ui.button(seen.say_text(words::RECOMBINE)).clicked() {
             let overview = &seen.snapshot.overview;
             let recipe = recipe_of(overview, row.id, &row.gloss);
-            out.send_command(WindowCommand::Recipe(recipe, None));
+            seen.send_command(WindowCommand::Recipe(recipe, None));
         }
         if let (Some(recording), Some((start, end))) = (row.recording_id, row.start_us.zip(row.end_us))
             && seen.shown.recording != Some(recording)
             && ui.button(seen.say_text(words::SHOW)).clicked()
         {
             let micros = RecordingInstant::from_micros;
-            out.send_command(WindowCommand::Place(
+            seen.send_command(WindowCommand::Place(
                 recording,
                 TimeSpan::span_between(micros(start), micros(end)),
             ));
-            out.send_command(WindowCommand::Look);
+            seen.send_command(WindowCommand::Look);
         }
     });
 }
@@ -154,13 +148,7 @@ fn field_name(seen: &PaneInput<'_>, field: &str) -> String {
 }
 
 /// Shows the coding of a token; values that come from annotations can be changed.
-fn show_token_coding(
-    it: &mut InspectorPane,
-    ui: &mut Ui,
-    seen: &PaneInput<'_>,
-    token: &TokenDetails,
-    out: &mut CommandOutbox,
-) {
+fn show_token_coding(it: &mut InspectorPane, ui: &mut Ui, seen: &PaneInput<'_>, token: &TokenDetails) {
     let names = (ui.available_width() * 0.45).clamp(80.0, 190.0);
     if token.values.is_empty() && token.opinions.is_empty() {
         ui.label("");
@@ -200,7 +188,7 @@ fn show_token_coding(
                 let candidates = |typed: &str| values_like(seen, value.inventory, typed);
                 ui.set_max_width((ui.available_width() - 24.0).max(60.0));
                 if let Some(text) = show_editable_field(ui, seen, key, label, &now, &candidates) {
-                    set_annotation(out, annotation, [None, None], Some(text));
+                    set_annotation(seen.out, annotation, [None, None], Some(text));
                 }
             } else {
                 ui.label(&now);

@@ -55,12 +55,7 @@ pub(super) fn show_thing_link(inspector: &mut InspectorPane, ui: &mut Ui, text: 
 }
 
 /// Shows the selection: the annotation, its token, the tier, the recording, the signer.
-pub(super) fn show_selected_details(
-    it: &mut InspectorPane,
-    ui: &mut Ui,
-    seen: &PaneInput<'_>,
-    out: &mut CommandOutbox,
-) {
+pub(super) fn show_selected_details(it: &mut InspectorPane, ui: &mut Ui, seen: &PaneInput<'_>) {
     let Some(recording) = seen.shown.recording.and_then(|id| seen.snapshot.recording_glance(id)) else {
         return;
     };
@@ -70,7 +65,7 @@ pub(super) fn show_selected_details(
         .and_then(|id| seen.snapshot.find_open_annotation(id));
     if let Some(found) = selection {
         show_part_title(ui, seen.say_text(words::ANNOTATION), &found.tier.row.name);
-        show_annotation_details(ui, seen, found, out);
+        show_annotation_details(ui, seen, found);
         ui.separator();
     } else if let Some(span) = seen.shown.span {
         show_inspector_lines(ui, seen, "span", &[(words::SPAN, span_text(span))]);
@@ -80,7 +75,7 @@ pub(super) fn show_selected_details(
         crate::panes::recombine::selected_token(seen).filter(|_| selection.is_some() || seen.shown.span.is_some());
     if let Some((token, gloss)) = token {
         show_inspector_part(ui, seen, words::TOKEN, true, &gloss, |ui| {
-            show_thing_details(it, ui, seen, &InspectedThing::Token(token), out);
+            show_thing_details(it, ui, seen, &InspectedThing::Token(token));
         });
     }
     let tier = selection.map(|found| found.tier).or_else(|| {
@@ -89,46 +84,40 @@ pub(super) fn show_selected_details(
     });
     if let Some(tier) = tier {
         show_inspector_part(ui, seen, words::TIER, selection.is_none(), &tier.row.name, |ui| {
-            super::inspector_tier::show_tier_details(ui, seen, tier, out);
+            super::inspector_tier::show_tier_details(ui, seen, tier);
         });
     }
     let open = selection.is_none();
     show_inspector_part(ui, seen, words::RECORDING, open, &recording.row.name, |ui| {
-        show_thing_details(it, ui, seen, &InspectedThing::Recording(recording.row.id), out);
+        show_thing_details(it, ui, seen, &InspectedThing::Recording(recording.row.id));
     });
     if let Some((id, name)) = recording.row.signer_id.zip(recording.row.signer.as_ref()) {
         show_inspector_part(ui, seen, words::SIGNER, false, name, |ui| {
-            show_thing_details(it, ui, seen, &InspectedThing::Signer(id), out);
+            show_thing_details(it, ui, seen, &InspectedThing::Signer(id));
         });
     }
 }
 
 /// Shows all details of something.
-pub(super) fn show_thing_details(
-    it: &mut InspectorPane,
-    ui: &mut Ui,
-    seen: &PaneInput<'_>,
-    thing: &InspectedThing,
-    out: &mut CommandOutbox,
-) {
+pub(super) fn show_thing_details(it: &mut InspectorPane, ui: &mut Ui, seen: &PaneInput<'_>, thing: &InspectedThing) {
     if let InspectedThing::Recording(id) = thing
         && let Some(glance) = seen.snapshot.recording_glance(*id)
     {
-        show_recording_details(ui, seen, glance, out);
+        show_recording_details(ui, seen, glance);
     }
     if let InspectedThing::Signer(id) = thing
         && let Some(row) = seen.snapshot.overview.people.iter().find(|row| row.id == *id)
     {
-        show_signer_details(ui, seen, row, out);
+        show_signer_details(ui, seen, row);
     }
-    match it.request_thing_details(thing, out) {
+    match it.request_thing_details(thing, seen.out) {
         None => drop(ui.spinner()),
         Some(Err(wrong)) => drop(ui.label(RichText::new(wrong).color(seen.pane_colours().trouble))),
-        Some(Ok(ObjectDetails::Token(token))) => super::inspector_token::show_token_details(it, ui, seen, &token, out),
-        Some(Ok(ObjectDetails::Sign(sign))) => about::show_sign_details(it, ui, seen, &sign, out),
-        Some(Ok(ObjectDetails::Signer(signer))) => signer_more(it, ui, seen, &signer, out),
-        Some(Ok(ObjectDetails::Recording(recording))) => recording_more(ui, seen, &recording, out),
-        Some(Ok(ObjectDetails::Value(value))) => about::show_inventory_value(it, ui, seen, &value, out),
+        Some(Ok(ObjectDetails::Token(token))) => super::inspector_token::show_token_details(it, ui, seen, &token),
+        Some(Ok(ObjectDetails::Sign(sign))) => about::show_sign_details(it, ui, seen, &sign),
+        Some(Ok(ObjectDetails::Signer(signer))) => signer_more(it, ui, seen, &signer),
+        Some(Ok(ObjectDetails::Recording(recording))) => recording_more(ui, seen, &recording),
+        Some(Ok(ObjectDetails::Value(value))) => about::show_inventory_value(it, ui, seen, &value),
     }
 }
 
@@ -150,7 +139,7 @@ fn missing_value_text<'a>(seen: &PaneInput<'a>, state: ValueState) -> &'static s
 
 /// Changes an annotation's times or value.
 pub(super) fn set_annotation(
-    out: &mut CommandOutbox,
+    out: &CommandOutbox,
     id: i64,
     times: [Option<RecordingInstant>; 2],
     value: Option<String>,
@@ -175,7 +164,7 @@ pub(super) fn values_like(seen: &PaneInput<'_>, inventory: Option<i64>, typed: &
     })
 }
 
-fn show_annotation_details(ui: &mut Ui, seen: &PaneInput<'_>, found: FoundAnnotation<'_>, out: &mut CommandOutbox) {
+fn show_annotation_details(ui: &mut Ui, seen: &PaneInput<'_>, found: FoundAnnotation<'_>) {
     let (row, columns, at) = (&found.tier.row, &found.tier.annotations, found.at);
     let id = columns.ids[at];
     show_inspector_grid(ui, "annotation", |ui| {
@@ -190,7 +179,7 @@ fn show_annotation_details(ui: &mut Ui, seen: &PaneInput<'_>, found: FoundAnnota
         };
         let key = Id::unique(("annotation value", id));
         if let Some(value) = show_line_with_completion(ui, seen, key, words::VALUE, &value, &candidates) {
-            set_annotation(out, id, [None, None], Some(value));
+            set_annotation(seen.out, id, [None, None], Some(value));
         }
         if columns.states[at] != ValueState::Value {
             let text = value_text(columns, at, |state| missing_value_text(seen, state)).to_owned();
@@ -207,7 +196,7 @@ fn show_annotation_details(ui: &mut Ui, seen: &PaneInput<'_>, found: FoundAnnota
             if let Some(typed) = show_editable_line(ui, seen, key, text, &time_text(now)) {
                 let time = inspector_data::read_time(&typed);
                 if time.is_some() {
-                    set_annotation(out, id, if first { [time, None] } else { [None, time] }, None);
+                    set_annotation(seen.out, id, if first { [time, None] } else { [None, time] }, None);
                 }
             }
         }

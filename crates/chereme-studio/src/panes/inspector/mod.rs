@@ -60,7 +60,7 @@ impl InspectorPane {
     fn request_thing_details(
         &mut self,
         thing: &InspectedThing,
-        out: &mut CommandOutbox,
+        out: &CommandOutbox,
     ) -> Option<Result<ObjectDetails, String>> {
         if let Some(known) = self.known.get(thing) {
             return Some(known.clone());
@@ -74,14 +74,14 @@ impl InspectorPane {
 }
 
 impl PaneInterface for InspectorPane {
-    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         self.follow_inspected_selection(seen);
         if let Some(thing) = self.turned.clone() {
             if ui.button(seen.say_text(words::BACK)).clicked() {
                 self.turned = None;
             }
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-                inspector_ui::show_thing_details(self, ui, seen, &thing, out);
+                inspector_ui::show_thing_details(self, ui, seen, &thing);
             });
             return;
         }
@@ -91,7 +91,7 @@ impl PaneInterface for InspectorPane {
         }
         ScrollArea::vertical()
             .auto_shrink(false)
-            .show(ui, |ui| inspector_ui::show_selected_details(self, ui, seen, out));
+            .show(ui, |ui| inspector_ui::show_selected_details(self, ui, seen));
     }
 
     fn receive_work_result(&mut self, id: WorkId, ended: &WorkResult) {

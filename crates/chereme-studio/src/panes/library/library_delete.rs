@@ -60,17 +60,17 @@ impl LibraryPane {
     }
 
     /// Deletes the chosen recording or sign, unless something depends on it.
-    pub(super) fn delete_chosen(&mut self, seen: &PaneInput<'_>, out: &mut CommandOutbox) -> ActionOutcome {
+    pub(super) fn delete_chosen(&mut self, seen: &PaneInput<'_>) -> ActionOutcome {
         match self.doomed(seen) {
             Some(doomed) => {
-                self.request_deletion(doomed, out);
+                self.request_deletion(doomed, seen.out);
                 ActionOutcome::Yes
             }
             None => ActionOutcome::Cannot(words::NONE_CHOSEN),
         }
     }
 
-    pub(super) fn request_deletion(&mut self, doomed: DeletionTarget, out: &mut CommandOutbox) {
+    pub(super) fn request_deletion(&mut self, doomed: DeletionTarget, out: &CommandOutbox) {
         let options = DeleteOptions {
             dry_run: true,
             ..DeleteOptions::default()
@@ -83,19 +83,13 @@ impl LibraryPane {
     }
 
     /// Draws the entry of a context menu that deletes a row.
-    pub(super) fn delete_entry(
-        &mut self,
-        ui: &mut Ui,
-        seen: &PaneInput<'_>,
-        doomed: impl FnOnce() -> DeletionTarget,
-        out: &mut CommandOutbox,
-    ) {
+    pub(super) fn delete_entry(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, doomed: impl FnOnce() -> DeletionTarget) {
         let row = Action::DeleteListed.action_row();
         let keys = seen.keys.action_keys_text(row.action);
         let button = eframe::egui::Button::new(seen.say_text(row.name)).shortcut_text(keys);
         let may = !seen.snapshot.is_read_only();
         if ui.add_enabled(may, button).clicked() {
-            self.request_deletion(doomed(), out);
+            self.request_deletion(doomed(), seen.out);
             ui.close();
         }
     }
@@ -119,10 +113,10 @@ impl LibraryPane {
     }
 
     /// Deletes what nothing depends on; otherwise shows the question what happens to the dependents.
-    pub(super) fn show_deletion(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    pub(super) fn show_deletion(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         match std::mem::take(&mut self.leaving) {
             DeletionState::Free(doomed) => {
-                out.request_work(recordings_jobs::delete_recordings_job(
+                seen.request_work(recordings_jobs::delete_recordings_job(
                     vec![doomed.address],
                     DeleteOptions::default(),
                 ));
@@ -135,7 +129,7 @@ impl LibraryPane {
                         dependents,
                         dry_run: false,
                     };
-                    out.request_work(recordings_jobs::delete_recordings_job(vec![doomed.address], options));
+                    seen.request_work(recordings_jobs::delete_recordings_job(vec![doomed.address], options));
                 }
             },
             other => self.leaving = other,

@@ -36,7 +36,7 @@ pub(super) enum BodyFitState {
 
 impl LibraryPane {
     /// Fits a body to the markers of the recording with the keyboard focus, otherwise of the one on display.
-    pub(super) fn fit_chosen(&mut self, seen: &PaneInput<'_>, out: &mut CommandOutbox) -> ActionOutcome {
+    pub(super) fn fit_chosen(&mut self, seen: &PaneInput<'_>) -> ActionOutcome {
         let rows = &self.rows.recordings;
         let focused = match self.listed_library(seen) {
             LibraryList::Recordings => self.focused.and_then(|at| rows.get(at)).map(|row| row.id),
@@ -52,19 +52,19 @@ impl LibraryPane {
             id: glance.row.id,
             name: glance.row.name.clone(),
         };
-        self.request_body_fit(marked, out);
+        self.request_body_fit(marked, seen.out);
         // The question is asked where the recording is listed.
-        out.send_command(WindowCommand::Do(Action::ShowLibrary));
+        seen.send_command(WindowCommand::Do(Action::ShowLibrary));
         ActionOutcome::Yes
     }
 
-    fn request_body_fit(&mut self, marked: MarkedRecording, out: &mut CommandOutbox) {
+    fn request_body_fit(&mut self, marked: MarkedRecording, out: &CommandOutbox) {
         let id = out.request_work(recordings_jobs::marker_people(RowName::Number(marked.id)));
         self.fitting = BodyFitState::Examined(marked, id);
     }
 
     /// Draws the entry of a context menu that fits a body to the markers of a recording.
-    pub(super) fn fit_entry(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, row: &LibraryRow, out: &mut CommandOutbox) {
+    pub(super) fn fit_entry(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, row: &LibraryRow) {
         let button = Button::new(seen.say_text(Action::FitMarkers.action_row().name));
         let may = !seen.snapshot.is_read_only();
         if ui.add_enabled(may, button).clicked() {
@@ -72,7 +72,7 @@ impl LibraryPane {
                 id: row.id,
                 name: row.name.clone(),
             };
-            self.request_body_fit(marked, out);
+            self.request_body_fit(marked, seen.out);
             ui.close();
         }
     }
@@ -90,7 +90,7 @@ impl LibraryPane {
     }
 
     /// Fits a body to the markers of one person; shows the question whose they are if there are several.
-    pub(super) fn show_body_fit(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    pub(super) fn show_body_fit(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         match std::mem::take(&mut self.fitting) {
             BodyFitState::Known(marked, people) => {
                 let answer = match people.is_empty() {
@@ -101,7 +101,7 @@ impl LibraryPane {
                     BodyFitAnswer::Waits => self.fitting = BodyFitState::Known(marked, people),
                     BodyFitAnswer::Cancel => {}
                     BodyFitAnswer::Fit(subject) => {
-                        out.request_work(recordings_jobs::fit_markers(RowName::Number(marked.id), subject));
+                        seen.request_work(recordings_jobs::fit_markers(RowName::Number(marked.id), subject));
                     }
                 }
             }

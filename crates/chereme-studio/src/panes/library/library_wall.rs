@@ -11,7 +11,6 @@ use eframe::egui::{
 
 use super::library_data::SignMovement;
 use super::{LibraryList, LibraryPane, row_id};
-use crate::command::CommandOutbox;
 use crate::context::PaneInput;
 use crate::miniatures::{self, MiniatureCell, MiniatureMotion};
 use crate::panes::list_keys;
@@ -49,13 +48,7 @@ fn wall_cell_layout(room: f32) -> (usize, Vec2) {
 
 impl LibraryPane {
     /// Shows the wall of recordings or signs.
-    pub(super) fn show_library_wall(
-        &mut self,
-        ui: &mut Ui,
-        seen: &PaneInput<'_>,
-        out: &mut CommandOutbox,
-        list: LibraryList,
-    ) {
+    pub(super) fn show_library_wall(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, list: LibraryList) {
         let total = match list {
             LibraryList::Recordings => self.rows.recordings.len(),
             LibraryList::Signs => self.rows.signs.len(),
@@ -80,7 +73,7 @@ impl LibraryPane {
                 ui.horizontal(|ui| {
                     for at in line * columns..((line + 1) * columns).min(total) {
                         let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
-                        self.show_wall_cell(ui, seen, out, list, at, rect);
+                        self.show_wall_cell(ui, seen, list, at, rect);
                     }
                 });
             }
@@ -88,15 +81,7 @@ impl LibraryPane {
         self.scrolled = shown.state.clamped_offset().y;
     }
 
-    fn show_wall_cell(
-        &mut self,
-        ui: &mut Ui,
-        seen: &PaneInput<'_>,
-        out: &mut CommandOutbox,
-        list: LibraryList,
-        at: usize,
-        rect: Rect,
-    ) {
+    fn show_wall_cell(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, list: LibraryList, at: usize, rect: Rect) {
         let picture = rect.with_max_y(rect.bottom() - WALL_TEXT_HEIGHT);
         let visible = ui.is_rect_visible(rect);
         match list {
@@ -109,8 +94,8 @@ impl LibraryPane {
                 self.focus_library_row(ui, &response, at);
                 let span = self.rows.first.get(&row.id).copied().unwrap_or(row.whole);
                 let motion = row.moves.then_some(MiniatureMotion::Span(row.id, span));
-                show_looped_motion(ui, seen, out, motion, picture);
-                self.on_recording(seen, out, &row, &response);
+                show_looped_motion(ui, seen, motion, picture);
+                self.on_recording(seen, &row, &response);
             }
             LibraryList::People => {}
             LibraryList::Signs => {
@@ -124,12 +109,12 @@ impl LibraryPane {
                     (SignMovement::Recorded(recording, span), _) => Some(MiniatureMotion::Span(recording, span)),
                     (SignMovement::Notated, Some(token)) if visible => self
                         .notated
-                        .notated_clip(token, &row.gloss, out)
+                        .notated_clip(token, &row.gloss, seen.out)
                         .map(MiniatureMotion::Made),
                     _ => None,
                 };
-                show_looped_motion(ui, seen, out, motion.clone(), picture);
-                self.on_sign(seen, out, &row, motion, &response);
+                show_looped_motion(ui, seen, motion.clone(), picture);
+                self.on_sign(seen, &row, motion, &response);
             }
         }
     }
@@ -196,18 +181,12 @@ fn draw_figure_frame(
 }
 
 /// Shows movement in a loop.
-fn show_looped_motion(
-    ui: &Ui,
-    seen: &PaneInput<'_>,
-    out: &mut CommandOutbox,
-    motion: Option<MiniatureMotion>,
-    rect: Rect,
-) {
+fn show_looped_motion(ui: &Ui, seen: &PaneInput<'_>, motion: Option<MiniatureMotion>, rect: Rect) {
     let rect = rect.shrink(1.5);
     match motion {
         Some(motion) => {
             let cell = MiniatureCell::new(motion, rect.size()).with_playing_clock(miniatures::figure_loop_clock(ui));
-            seen.little.paint_figure(ui, seen.language, out, &cell, rect);
+            seen.little.paint_figure(ui, seen.language, seen.out, &cell, rect);
         }
         None => miniatures::paint_still_placeholder(ui, seen.language, rect),
     }

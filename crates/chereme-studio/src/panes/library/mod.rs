@@ -109,20 +109,20 @@ impl LibraryPane {
     }
 
     /// Draws the choice between a wall of pictures and a list, from the right.
-    fn layout_of_list(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn layout_of_list(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         for (as_list, name) in [(true, words::LIST), (false, words::WALL)] {
             let on = seen.settings.library_list == as_list;
             if ui.selectable_label(on, seen.say_text(name)).clicked() && !on {
                 let mut settings = seen.settings.clone();
                 settings.library_list = as_list;
-                out.send_command(WindowCommand::Settings(Box::new(settings)));
+                seen.send_command(WindowCommand::Settings(Box::new(settings)));
                 (self.scrolled, self.reach) = (0.0, None);
             }
         }
     }
 
     /// Draws the choice of the list, and the filter.
-    fn show_library_head(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) -> LibraryList {
+    fn show_library_head(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) -> LibraryList {
         let list = self.listed_library(seen);
         let overview = &seen.snapshot.overview;
         ui.horizontal_wrapped(|ui| {
@@ -144,7 +144,7 @@ impl LibraryPane {
         let from_the_right = Layout::right_to_left(Align::Center);
         let shown = ui
             .allocate_ui_with_layout(row, from_the_right, |ui| {
-                self.layout_of_list(ui, seen, out);
+                self.layout_of_list(ui, seen);
                 script_edit::draw_text_line(ui, &mut self.filter, |field| {
                     field
                         .hint_text(seen.say_text(words::FILTER))
@@ -170,19 +170,19 @@ impl LibraryPane {
 
     /// Chooses a sign: shows it in its recording, or animates its notation. For a sign without either, the pane lists
     /// the possible actions.
-    fn choose_library_sign(&mut self, row: &LibrarySignRow, out: &mut CommandOutbox) {
+    fn choose_library_sign(&mut self, row: &LibrarySignRow, out: &CommandOutbox) {
         self.chosen = Some(row.clone());
         let Some(token) = row.token else { return };
         self.notated.choose_notated_sign(row.moves, token, &row.gloss, out);
     }
 
     /// Shows the chosen notated sign on the stage once it is animated, even if another pane covers this one.
-    pub(crate) fn show_chosen_notated_sign(&mut self, out: &mut CommandOutbox) {
+    pub(crate) fn show_chosen_notated_sign(&mut self, out: &CommandOutbox) {
         self.notated.show_opened_notation(out);
     }
 
     /// Lists the possible actions for the chosen sign if it has no movement.
-    fn show_sign_actions(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn show_sign_actions(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         let Some((row, token)) = self.chosen.as_ref().and_then(|row| Some((row, row.token?))) else {
             return;
         };
@@ -192,7 +192,7 @@ impl LibraryPane {
             SignMovement::Not => Some(MovementAbsence::Coded),
         };
         if let Some(bare) = bare {
-            without_movement::show_movement_absence(ui, seen, out, token, &row.gloss, &bare);
+            without_movement::show_movement_absence(ui, seen, token, &row.gloss, &bare);
         }
     }
 
@@ -226,7 +226,7 @@ impl LibraryPane {
         }
     }
 
-    fn show_recording_rows(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn show_recording_rows(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         let rows = std::mem::take(&mut self.rows.recordings);
         let height = ui.spacing().interact_size.y * LIBRARY_ROW_HEIGHT;
         self.take_library_keys(ui, rows.len());
@@ -240,9 +240,9 @@ impl LibraryPane {
                 self.focus_library_row(ui, &response, at);
                 if row.moves {
                     let motion = MiniatureMotion::Span(row.id, row.whole);
-                    show_row_figure(ui, seen, out, motion, &response, lead);
+                    show_row_figure(ui, seen, motion, &response, lead);
                 }
-                self.on_recording(seen, out, row, &response);
+                self.on_recording(seen, row, &response);
             }
         });
         self.scrolled = shown.state.clamped_offset().y;
@@ -250,7 +250,7 @@ impl LibraryPane {
     }
 
     /// Lists the people; a click shows one in the inspector, with everything about them to change.
-    fn show_person_rows(&mut self, ui: &mut Ui, out: &mut CommandOutbox) {
+    fn show_person_rows(&mut self, ui: &mut Ui, out: &CommandOutbox) {
         let rows = std::mem::take(&mut self.rows.people);
         let height = ui.spacing().interact_size.y * LIBRARY_ROW_HEIGHT;
         self.take_library_keys(ui, rows.len());
@@ -270,55 +270,47 @@ impl LibraryPane {
     }
 
     /// Handles clicks on a recording.
-    fn on_recording(&mut self, seen: &PaneInput<'_>, out: &mut CommandOutbox, row: &LibraryRow, response: &Response) {
+    fn on_recording(&mut self, seen: &PaneInput<'_>, row: &LibraryRow, response: &Response) {
         if response.clicked() {
-            out.send_command(WindowCommand::Recording(row.id));
-            out.send_command(WindowCommand::Look);
+            seen.send_command(WindowCommand::Recording(row.id));
+            seen.send_command(WindowCommand::Look);
         }
         if response.double_clicked() {
-            open_recipe(seen, Some(row.id), out);
+            open_recipe(seen, Some(row.id));
         }
         response.context_menu(|ui| {
             if seen.snapshot.recipe_of(row.id).is_some() {
                 let name = seen.say_text(Action::OpenRecipe.action_row().name);
                 if ui.button(name).clicked() {
-                    open_recipe(seen, Some(row.id), out);
+                    open_recipe(seen, Some(row.id));
                     ui.close();
                 }
             }
-            offer_to_inspect(ui, seen, InspectedThing::Recording(row.id), out);
+            offer_to_inspect(ui, seen, InspectedThing::Recording(row.id));
             ui.separator();
             if row.has_markers {
-                self.fit_entry(ui, seen, row, out);
+                self.fit_entry(ui, seen, row);
             }
             let doomed = || library_delete::recording_deletion_target(row.id, &row.name);
-            self.delete_entry(ui, seen, doomed, out);
+            self.delete_entry(ui, seen, doomed);
         });
     }
 
-    fn show_sign_rows(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn show_sign_rows(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         let rows = std::mem::take(&mut self.rows.signs);
         let height = ui.spacing().interact_size.y * LIBRARY_ROW_HEIGHT;
         self.take_library_keys(ui, rows.len());
         let area = self.library_scroll_area(ui, height + ui.spacing().item_spacing.y);
         let shown = area.show_rows(ui, height, rows.len(), |ui, range| {
             for at in range {
-                self.show_one_sign_row(ui, seen, out, at, &rows[at], height);
+                self.show_one_sign_row(ui, seen, at, &rows[at], height);
             }
         });
         self.scrolled = shown.state.clamped_offset().y;
         self.rows.signs = rows;
     }
 
-    fn show_one_sign_row(
-        &mut self,
-        ui: &mut Ui,
-        seen: &PaneInput<'_>,
-        out: &mut CommandOutbox,
-        at: usize,
-        row: &LibrarySignRow,
-        height: f32,
-    ) {
+    fn show_one_sign_row(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, at: usize, row: &LibrarySignRow, height: f32) {
         let chosen = self.chosen.as_ref().is_some_and(|chosen_sign| chosen_sign.id == row.id);
         let lead = height - 4.0;
         let response = super::list_row_at(ui, row_id(at), height, lead, chosen, &row.gloss, &row.about);
@@ -327,21 +319,20 @@ impl LibraryPane {
             (SignMovement::Recorded(recording, span), _) => Some(MiniatureMotion::Span(recording, span)),
             (SignMovement::Notated, Some(token)) if ui.is_rect_visible(response.rect) => self
                 .notated
-                .notated_clip(token, &row.gloss, out)
+                .notated_clip(token, &row.gloss, seen.out)
                 .map(MiniatureMotion::Made),
             _ => None,
         };
         if let Some(motion) = &motion {
-            show_row_figure(ui, seen, out, motion.clone(), &response, lead);
+            show_row_figure(ui, seen, motion.clone(), &response, lead);
         }
-        self.on_sign(seen, out, row, motion, &response);
+        self.on_sign(seen, row, motion, &response);
     }
 
     /// Handles clicks on a sign, and drags.
     fn on_sign(
         &mut self,
         seen: &PaneInput<'_>,
-        out: &mut CommandOutbox,
         row: &LibrarySignRow,
         motion: Option<MiniatureMotion>,
         response: &Response,
@@ -350,19 +341,19 @@ impl LibraryPane {
             super::carry::make_sign_draggable(response, carried, motion);
         }
         if response.clicked() {
-            self.choose_library_sign(row, out);
+            self.choose_library_sign(row, seen.out);
         }
         let recording = citation_recording(row);
         if response.double_clicked() {
-            open_recipe(seen, recording, out);
+            open_recipe(seen, recording);
         }
         response.context_menu(|ui| {
             let gloss = row.gloss.as_str();
             if let Some(token) = row.token {
-                super::carry::show_sign_menu(ui, seen, token, gloss, recording, out);
+                super::carry::show_sign_menu(ui, seen, token, gloss, recording);
                 ui.separator();
             }
-            self.delete_entry(ui, seen, || library_delete::sign_deletion_target(row), out);
+            self.delete_entry(ui, seen, || library_delete::sign_deletion_target(row));
         });
     }
 }
@@ -381,9 +372,9 @@ fn citation_recording(row: &LibrarySignRow) -> Option<i64> {
 }
 
 /// Opens the recipe of a recording that was made from one.
-fn open_recipe(seen: &PaneInput<'_>, recording: Option<i64>, out: &mut CommandOutbox) {
+fn open_recipe(seen: &PaneInput<'_>, recording: Option<i64>) {
     if let Some((recipe, name)) = recording.and_then(|id| seen.snapshot.recipe_of(id)) {
-        out.send_command(WindowCommand::Recipe(recipe, Some(name)));
+        seen.send_command(WindowCommand::Recipe(recipe, Some(name)));
     }
 }
 
@@ -392,57 +383,50 @@ fn carried_sign_of(row: &LibrarySignRow) -> Option<DraggedToken> {
     row.token.map(|token| DraggedToken { token, gloss })
 }
 
-fn show_row_figure(
-    ui: &Ui,
-    seen: &PaneInput<'_>,
-    out: &mut CommandOutbox,
-    motion: MiniatureMotion,
-    response: &Response,
-    lead: f32,
-) {
+fn show_row_figure(ui: &Ui, seen: &PaneInput<'_>, motion: MiniatureMotion, response: &Response, lead: f32) {
     let centre = response.rect.left_center() + vec2(4.0 + lead / 2.0, 0.0);
     let mut cell = MiniatureCell::new(motion.clone(), Vec2::splat(lead));
     if response.hovered() || response.has_focus() {
         cell = cell.with_playing_clock(miniatures::figure_loop_clock(ui));
     }
     let rect = Rect::from_center_size(centre, cell.size);
-    seen.little.paint_figure(ui, seen.language, out, &cell, rect);
+    seen.little.paint_figure(ui, seen.language, seen.out, &cell, rect);
     let mut tooltip = Tooltip::for_enabled(response);
     tooltip.popup = tooltip.popup.align(RectAlign::RIGHT_START);
     tooltip.show(|ui| {
         let size = Vec2::splat(LARGE_PICTURE_SIDE);
         let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
         let large = MiniatureCell::new(motion, size).with_playing_clock(miniatures::figure_loop_clock(ui));
-        seen.little.paint_figure(ui, seen.language, out, &large, rect);
+        seen.little.paint_figure(ui, seen.language, seen.out, &large, rect);
     });
 }
 
-fn offer_to_inspect(ui: &mut Ui, seen: &PaneInput<'_>, thing: InspectedThing, out: &mut CommandOutbox) {
+fn offer_to_inspect(ui: &mut Ui, seen: &PaneInput<'_>, thing: InspectedThing) {
     if ui.button(seen.say_text(words::INSPECT)).clicked() {
-        out.send_command(WindowCommand::Inspect(thing));
+        seen.send_command(WindowCommand::Inspect(thing));
         ui.close();
     }
 }
 
 impl PaneInterface for LibraryPane {
-    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         self.notated
             .forget_animation_failures(seen.snapshot.overview.generation);
-        self.show_deletion(ui, seen, out);
-        self.show_body_fit(ui, seen, out);
+        self.show_deletion(ui, seen);
+        self.show_body_fit(ui, seen);
         self.focused = None;
         let overview = &seen.snapshot.overview;
         if overview.recordings.is_empty() && overview.signs.is_empty() {
             ui.label(seen.say_text(words::EMPTY));
             if ui.button(seen.say_text(words::IMPORT)).clicked() {
-                out.send_command(WindowCommand::Do(Action::Import));
+                seen.send_command(WindowCommand::Do(Action::Import));
             }
             return;
         }
-        let list = self.show_library_head(ui, seen, out);
+        let list = self.show_library_head(ui, seen);
         self.rows.update_library_rows(seen, &self.filter);
         if list == LibraryList::Signs {
-            self.show_sign_actions(ui, seen, out);
+            self.show_sign_actions(ui, seen);
         }
         match list {
             LibraryList::Recordings if overview.recordings.is_empty() => {
@@ -460,22 +444,17 @@ impl PaneInterface for LibraryPane {
             LibraryList::People if self.rows.people.is_empty() => {
                 ui.label(seen.say_text(words::NO_PERSON_FITS));
             }
-            LibraryList::People => self.show_person_rows(ui, out),
-            _ if !seen.settings.library_list => self.show_library_wall(ui, seen, out, list),
-            LibraryList::Recordings => self.show_recording_rows(ui, seen, out),
-            LibraryList::Signs => self.show_sign_rows(ui, seen, out),
+            LibraryList::People => self.show_person_rows(ui, seen.out),
+            _ if !seen.settings.library_list => self.show_library_wall(ui, seen, list),
+            LibraryList::Recordings => self.show_recording_rows(ui, seen),
+            LibraryList::Signs => self.show_sign_rows(ui, seen),
         }
     }
 
-    fn carry_out_pane_action(
-        &mut self,
-        action: Action,
-        seen: &PaneInput<'_>,
-        out: &mut CommandOutbox,
-    ) -> ActionOutcome {
+    fn carry_out_pane_action(&mut self, action: Action, seen: &PaneInput<'_>) -> ActionOutcome {
         match action {
-            Action::DeleteListed => self.delete_chosen(seen, out),
-            Action::FitMarkers => self.fit_chosen(seen, out),
+            Action::DeleteListed => self.delete_chosen(seen),
+            Action::FitMarkers => self.fit_chosen(seen),
             _ => ActionOutcome::No,
         }
     }

@@ -89,7 +89,7 @@ impl Default for MapPane {
 
 impl MapPane {
     /// Requests the map again if the corpus or the components changed.
-    fn request_changed_map(&mut self, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn request_changed_map(&mut self, seen: &PaneInput<'_>) {
         let of = Some((seen.snapshot.overview.generation, self.by));
         if self.of == of || seen.is_running(self.asked) {
             return;
@@ -102,7 +102,7 @@ impl MapPane {
         }
         let wanted = PLACING_COMPONENTS.iter().zip(self.by).filter(|(_, on)| *on);
         let components = wanted.map(|((component, _), _)| *component).collect();
-        self.asked = Some(out.request_work(searching::map_signs_job(components)));
+        self.asked = Some(seen.request_work(searching::map_signs_job(components)));
     }
 
     fn show_map_tools(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
@@ -132,7 +132,7 @@ impl MapPane {
         });
     }
 
-    fn show_map_plane(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, map: &SignMap, out: &mut CommandOutbox) {
+    fn show_map_plane(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, map: &SignMap) {
         let usual = ui.spacing().interact_size.y * 1.6;
         let foot = self.foot_height.unwrap_or(usual) + ui.spacing().item_spacing.y;
         let size = vec2(ui.available_width(), (ui.available_height() - foot).max(120.0));
@@ -185,7 +185,7 @@ impl MapPane {
         // Figures at the edge are cut off there.
         let mut inside = ui.new_child(UiBuilder::new().max_rect(rect));
         inside.set_clip_rect(painter.clip_rect());
-        let figures = self.figures(&inside, seen, out, &shown);
+        let figures = self.figures(&inside, seen, &shown);
         draw_map_glosses(&inside, &shown, &figures);
         if visible.is_empty() && !map.signs.is_empty() {
             let text = seen.say_text(words::NONE_IN_SIGHT);
@@ -211,7 +211,7 @@ impl MapPane {
                 .iter()
                 .filter(|&&at| map_data::is_inside_outline(&lasso, places[at]));
             if let Some(query) = map_data::glosses_query(inside.map(|&at| map.signs[at].gloss.as_str())) {
-                out.send_command(WindowCommand::Find(query));
+                seen.send_command(WindowCommand::Find(query));
             }
         }
         if response.clicked() {
@@ -222,20 +222,14 @@ impl MapPane {
                 let few = MOST_FIGURES / 2;
                 let to = self.view.view_near_place(rect, pos2(sign.x, sign.y), places, few);
                 self.towards = Some(to);
-                self.notated.choose_citation_sign(seen, map.signs[at].token, out);
+                self.notated.choose_citation_sign(seen, map.signs[at].token);
             }
         }
     }
 
     /// Paints the signs as little figures if there is room and movement, else as points; returns the rectangles of the
     /// figures by the indices of their signs.
-    fn figures(
-        &mut self,
-        ui: &Ui,
-        seen: &PaneInput<'_>,
-        out: &mut CommandOutbox,
-        shown: &VisibleSigns<'_>,
-    ) -> BTreeMap<usize, Rect> {
+    fn figures(&mut self, ui: &Ui, seen: &PaneInput<'_>, shown: &VisibleSigns<'_>) -> BTreeMap<usize, Rect> {
         let mut rooms: BTreeMap<usize, Rect> = BTreeMap::new();
         let accent = seen.pane_colours().accent;
         let weak = ui.visuals().weak_text_color();
@@ -255,7 +249,7 @@ impl MapPane {
             let motion = match moves {
                 Some(SignMovement::Recorded(recording, span)) => Some(MiniatureMotion::Span(recording, span)),
                 Some(SignMovement::Notated) if few => {
-                    let made = self.notated.notated_clip(sign.token, &sign.gloss, out);
+                    let made = self.notated.notated_clip(sign.token, &sign.gloss, seen.out);
                     made.map(MiniatureMotion::Made)
                 }
                 _ => None,
@@ -267,7 +261,7 @@ impl MapPane {
             };
             rooms.insert(at, room);
             let cell = MiniatureCell::new(motion, room.size()).with_playing_clock(miniatures::figure_loop_clock(ui));
-            seen.little.paint_figure(ui, seen.language, out, &cell, room);
+            seen.little.paint_figure(ui, seen.language, seen.out, &cell, room);
             if marked {
                 let stroke = Stroke::new(2.0, accent);
                 let painter = ui.painter();
@@ -316,12 +310,12 @@ impl MapPane {
     }
 
     /// Shows the opened notated sign on the stage once it is animated, even if another pane covers this one.
-    pub(crate) fn show_animated_map_sign(&mut self, out: &mut CommandOutbox) {
+    pub(crate) fn show_animated_map_sign(&mut self, out: &CommandOutbox) {
         self.notated.show_opened_notation(out);
     }
 
     /// Shows the chosen sign and those most similar to it, as buttons.
-    fn foot(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, map: &SignMap, out: &mut CommandOutbox) {
+    fn foot(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, map: &SignMap) {
         let Some(chosen) = self.chosen.filter(|&at| at < map.signs.len()) else {
             ui.weak(seen.say_text(words::HINT));
             return;
@@ -332,7 +326,7 @@ impl MapPane {
             for at in map_data::most_similar_signs(map, chosen) {
                 if ui.link(&map.signs[at].gloss).clicked() {
                     self.chosen = Some(at);
-                    self.notated.choose_citation_sign(seen, map.signs[at].token, out);
+                    self.notated.choose_citation_sign(seen, map.signs[at].token);
                 }
             }
         });
@@ -389,10 +383,10 @@ fn draw_map_glosses(ui: &Ui, shown: &VisibleSigns<'_>, figures: &BTreeMap<usize,
 }
 
 impl PaneInterface for MapPane {
-    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         self.notated
             .forget_animation_failures(seen.snapshot.overview.generation);
-        self.request_changed_map(seen, out);
+        self.request_changed_map(seen);
         self.show_map_tools(ui, seen);
         if let Some(wrong) = &self.wrong {
             ui.weak(translate_library_message(wrong, seen.language));
@@ -400,9 +394,9 @@ impl PaneInterface for MapPane {
         let Some(map) = self.map.clone() else {
             return;
         };
-        self.show_map_plane(ui, seen, &map, out);
+        self.show_map_plane(ui, seen, &map);
         let top = ui.cursor().top();
-        let foot = ui.scope(|ui| self.foot(ui, seen, &map, out));
+        let foot = ui.scope(|ui| self.foot(ui, seen, &map));
         let height = foot.response.rect.bottom() - top;
         if self
             .foot_height

@@ -8,7 +8,6 @@ use eframe::egui::{
 
 use super::MeasuresPane;
 use super::measures_table::MeasureColumn;
-use crate::command::CommandOutbox;
 use crate::context::PaneInput;
 use crate::panes::search::facet_name;
 use crate::panes::{list_keys, scrolled_to};
@@ -27,18 +26,12 @@ fn row_id(at: usize) -> Id {
 
 impl MeasuresPane {
     /// Shows the table.
-    pub(super) fn show_measure_table(
-        &mut self,
-        ui: &mut Ui,
-        seen: &PaneInput<'_>,
-        found: &SignMeasures,
-        out: &mut CommandOutbox,
-    ) {
+    pub(super) fn show_measure_table(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, found: &SignMeasures) {
         ScrollArea::horizontal().id_salt("measure columns").show(ui, |ui| {
             let width = (ui.available_width() - SCROLL_BAR_ROOM_POINTS).max(MIN_TABLE_WIDTH_POINTS);
             ui.set_min_width(width + SCROLL_BAR_ROOM_POINTS);
             self.show_column_titles(ui, seen, width);
-            self.show_sign_rows(ui, seen, found, width, out);
+            self.show_sign_rows(ui, seen, found, width);
         });
     }
 
@@ -73,14 +66,7 @@ impl MeasuresPane {
         }
     }
 
-    fn show_sign_rows(
-        &mut self,
-        ui: &mut Ui,
-        seen: &PaneInput<'_>,
-        found: &SignMeasures,
-        width: f32,
-        out: &mut CommandOutbox,
-    ) {
+    fn show_sign_rows(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, found: &SignMeasures, width: f32) {
         let rows = std::mem::take(&mut self.rows);
         let is_focused = ui.memory(|memory| memory.focused()) == Some(row_id(self.at));
         if is_focused && let Some(to) = list_keys::take_list_keys(ui, self.at, rows.len()) {
@@ -98,7 +84,7 @@ impl MeasuresPane {
                 let sign = &found.signs[rows[at]];
                 if self.show_sign_row(ui, seen, rect, at, sign).clicked() {
                     self.at = at;
-                    self.notated.choose_citation_sign(seen, sign.token, out);
+                    self.notated.choose_citation_sign(seen, sign.token);
                 }
             }
         });

@@ -62,13 +62,13 @@ pub(crate) struct MeasuresPane {
 
 impl MeasuresPane {
     /// Shows the opened notated sign on the stage once it is animated, even if another pane covers this one.
-    pub(crate) fn show_animated_measured_sign(&mut self, out: &mut CommandOutbox) {
+    pub(crate) fn show_animated_measured_sign(&mut self, out: &CommandOutbox) {
         self.notated.show_opened_notation(out);
     }
 
     /// Requests measures by the present options. After changes of the corpus the user asks for them, since annotating would
     /// begin them with every step.
-    fn request_measures(&mut self, out: &mut CommandOutbox) {
+    fn request_measures(&mut self, out: &CommandOutbox) {
         if let Some(old) = self.asked.take() {
             out.send_command(WindowCommand::Stop(old));
         }
@@ -197,12 +197,12 @@ impl MeasuresPane {
         }
     }
 
-    fn show_progress_or_tools(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
-        if super::show_running_work(ui, seen, self.asked, out) {
+    fn show_progress_or_tools(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
+        if super::show_running_work(ui, seen, self.asked) {
             return;
         }
         if ui.button(seen.say_text(words::AGAIN)).clicked() {
-            self.request_measures(out);
+            self.request_measures(seen.out);
         }
         let Some(found) = self.found.as_ref().filter(|found| !found.signs.is_empty()) else {
             return;
@@ -218,7 +218,7 @@ impl MeasuresPane {
         let may_store = !(seen.snapshot.is_read_only() || self.storing.is_some() || is_stored);
         let store = ui.add_enabled(may_store, Button::new(seen.say_text(words::STORE)));
         if store.on_hover_text(seen.say_text(words::STORE_TIP)).clicked() {
-            self.storing = Some(out.request_work(comparing::store_measures_job(found.clone())));
+            self.storing = Some(seen.request_work(comparing::store_measures_job(found.clone())));
         }
     }
 
@@ -233,7 +233,7 @@ impl MeasuresPane {
 }
 
 impl PaneInterface for MeasuresPane {
-    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         if seen.snapshot.overview.signs.is_empty() {
             ui.label(seen.say_text(crate::words::search_words::EMPTY));
             return;
@@ -244,10 +244,10 @@ impl PaneInterface for MeasuresPane {
         ui.horizontal_wrapped(|ui| {
             self.show_field_menu(ui, seen);
             self.show_query_line(ui, seen);
-            self.show_progress_or_tools(ui, seen, out);
+            self.show_progress_or_tools(ui, seen);
         });
         if self.requested.as_ref() != Some(&self.options) {
-            self.request_measures(out);
+            self.request_measures(seen.out);
         }
         self.show_failure_or_stop(ui, seen);
         let Some(found) = self.found.clone() else {
@@ -268,7 +268,7 @@ impl PaneInterface for MeasuresPane {
             ],
         );
         ui.small(summary);
-        self.show_measure_table(ui, seen, &found, out);
+        self.show_measure_table(ui, seen, &found);
     }
 
     fn receive_work_result(&mut self, id: WorkId, ended: &WorkResult) {

@@ -77,7 +77,7 @@ impl RecipePreview {
         text: &str,
         generation: i64,
         now: f64,
-        out: &mut CommandOutbox,
+        out: &CommandOutbox,
     ) {
         if std::mem::take(&mut self.fresh) {
             self.took = now - self.since;
@@ -232,25 +232,25 @@ mod tests {
 
     #[test]
     fn an_outdated_evaluation_is_stopped_once_and_an_equal_recipe_can_be_repeated() {
-        let (mut live, mut out) = (RecipePreview::default(), CommandOutbox::default());
+        let (mut live, out) = (RecipePreview::default(), CommandOutbox::default());
         let stack = stack("A");
-        let stops = |out: &mut CommandOutbox| {
+        let stops = |out: &CommandOutbox| {
             let all = out.take_commands().into_iter();
             all.filter(|it| matches!(it, WindowCommand::Stop(_))).count()
         };
-        live.evaluate_changed_recipe(&stack, "A", 1, 0.0, &mut out);
-        live.evaluate_changed_recipe(&stack, "A | swap", 1, 0.1, &mut out);
-        assert_eq!(stops(&mut out), 0, "it may be ready soon");
-        live.evaluate_changed_recipe(&stack, "A | swap", 1, 0.2, &mut out);
-        live.evaluate_changed_recipe(&stack, "A | swap", 1, 0.3, &mut out);
-        assert_eq!(stops(&mut out), 1);
+        live.evaluate_changed_recipe(&stack, "A", 1, 0.0, &out);
+        live.evaluate_changed_recipe(&stack, "A | swap", 1, 0.1, &out);
+        assert_eq!(stops(&out), 0, "it may be ready soon");
+        live.evaluate_changed_recipe(&stack, "A | swap", 1, 0.2, &out);
+        live.evaluate_changed_recipe(&stack, "A | swap", 1, 0.3, &out);
+        assert_eq!(stops(&out), 1);
         assert!(live.receive_preview_result(WorkId(1), &Err(CorpusError::Stopped)));
         assert!(live.trouble.is_none());
-        live.evaluate_changed_recipe(&stack, "A | swap", 1, 0.3, &mut out);
-        live.evaluate_changed_recipe(&stack, "A | reverse", 1, 0.9, &mut out);
-        assert_eq!(stops(&mut out), 0, "not twice in a row");
+        live.evaluate_changed_recipe(&stack, "A | swap", 1, 0.3, &out);
+        live.evaluate_changed_recipe(&stack, "A | reverse", 1, 0.9, &out);
+        assert_eq!(stops(&out), 0, "not twice in a row");
         assert!(live.receive_preview_result(WorkId(2), &Err(CorpusError::from_wrong_message("no A"))));
-        live.evaluate_changed_recipe(&stack, "A | swap", 1, 1.0, &mut out);
+        live.evaluate_changed_recipe(&stack, "A | swap", 1, 1.0, &out);
         assert!(out.take_commands().is_empty(), "it is known already");
         live.reload_recipe_preview();
         let recipe = "A | swap".to_owned();
@@ -261,17 +261,17 @@ mod tests {
         let again = true;
         assert_eq!(live.next(&wish), Some(OpenRecipeDraft { recipe, again }));
         live.reload_recipe_preview();
-        live.evaluate_changed_recipe(&stack, "A | swap", 1, 1.0, &mut out);
+        live.evaluate_changed_recipe(&stack, "A | swap", 1, 1.0, &out);
         assert!(matches!(out.take_commands()[..], [WindowCommand::Work(..)]));
     }
 
     #[test]
     fn one_recipe_is_evaluated_at_a_time_and_the_newest_next() {
-        let (mut live, mut out) = (RecipePreview::default(), CommandOutbox::default());
+        let (mut live, out) = (RecipePreview::default(), CommandOutbox::default());
         let stack = stack("A");
-        live.evaluate_changed_recipe(&stack, "A", 1, 0.0, &mut out);
-        live.evaluate_changed_recipe(&stack, "A | swap", 1, 0.0, &mut out);
-        live.evaluate_changed_recipe(&stack, "A | swap | reverse", 1, 0.0, &mut out);
+        live.evaluate_changed_recipe(&stack, "A", 1, 0.0, &out);
+        live.evaluate_changed_recipe(&stack, "A | swap", 1, 0.0, &out);
+        live.evaluate_changed_recipe(&stack, "A | swap | reverse", 1, 0.0, &out);
         assert_eq!(out.take_commands().len(), 1);
         let failed = Err(CorpusError::Step(Box::new(FailedStep {
             step: "A".to_owned(),
@@ -284,9 +284,9 @@ mod tests {
         assert!(live.receive_preview_result(WorkId(1), &failed));
         let trouble = live.trouble.clone().expect("trouble");
         assert_eq!(trouble.text, "A: there is none");
-        live.evaluate_changed_recipe(&stack, "A | swap | reverse", 1, 0.0, &mut out);
+        live.evaluate_changed_recipe(&stack, "A | swap | reverse", 1, 0.0, &out);
         assert_eq!(out.take_commands().len(), 1);
-        live.evaluate_changed_recipe(&stack, "", 1, 0.0, &mut out);
+        live.evaluate_changed_recipe(&stack, "", 1, 0.0, &out);
         assert!(live.trouble.is_none());
     }
 }

@@ -23,7 +23,7 @@ use eframe::egui::{Button, CollapsingHeader, Frame, Id, Panel, RichText, ScrollA
 
 use super::{ActionOutcome, PaneInterface, carry};
 use crate::action::Action;
-use crate::command::{CommandOutbox, DraggedToken, WindowCommand};
+use crate::command::{DraggedToken, WindowCommand};
 use crate::context::PaneInput;
 use crate::model::generated::GeneratedClip;
 use crate::model::model_handle::{PlacementHandle, TravelCourse};
@@ -270,26 +270,26 @@ impl RecombinePane {
 
     /// Evaluates the current recipe, and passes the result, its handle and its path to the stage; `now` is the time on
     /// the window's clock.
-    pub(crate) fn keep_up(&mut self, seen: &PaneInput<'_>, now: f64, out: &mut CommandOutbox) {
+    pub(crate) fn keep_up(&mut self, seen: &PaneInput<'_>, now: f64) {
         let generation = seen.snapshot.overview.generation;
         if self.wrong.is_none() {
             let text = self.stack.used_recipe_text();
             self.live
-                .evaluate_changed_recipe(&self.stack, &text, generation, now, out);
+                .evaluate_changed_recipe(&self.stack, &text, generation, now, seen.out);
         }
-        self.show_on_stage(seen, out);
+        self.show_on_stage(seen);
         let handle = self.chosen_placement_handle();
         if seen.shown.handle != handle {
-            out.send_command(WindowCommand::Handle(handle));
+            seen.send_command(WindowCommand::Handle(handle));
         }
         let course = self.chosen_hand_path();
         if seen.shown.course.as_deref() != course.as_ref() {
-            out.send_command(WindowCommand::Course(course.map(Box::new)));
+            seen.send_command(WindowCommand::Course(course.map(Box::new)));
         }
     }
 
     /// Passes the result to the stage, or returns the stage to the recording.
-    fn show_on_stage(&mut self, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn show_on_stage(&mut self, seen: &PaneInput<'_>) {
         let made = self.live.made.as_ref().filter(|_| self.on_stage);
         let same = match (made, &self.given) {
             (Some(made), Some(given)) => Arc::ptr_eq(made, given),
@@ -305,7 +305,7 @@ impl RecombinePane {
         }
         self.given = made.cloned();
         let shown = made.map(|made| Arc::new(GeneratedClip::clip_from_recipe_result(made)));
-        out.send_command(WindowCommand::Made(shown));
+        seen.send_command(WindowCommand::Made(shown));
     }
 
     /// Sets the text to typed text; the cards follow if it can be read.
@@ -478,12 +478,12 @@ impl RecombinePane {
 }
 
 impl PaneInterface for RecombinePane {
-    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         let pane_rect = ui.available_rect_before_wrap();
         if !self.stack.is_empty() {
             Panel::bottom("recombine-store")
                 .frame(Frame::new().inner_margin(eframe::egui::Margin::symmetric(0, 6)))
-                .show(ui, |ui| self.show_store_bar(ui, seen, out));
+                .show(ui, |ui| self.show_store_bar(ui, seen));
         }
         self.recipe_field(ui, seen);
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
@@ -508,7 +508,7 @@ impl PaneInterface for RecombinePane {
                 };
                 let title = fill_text_braces(seen.say_text(words::SUGGEST), &[("sign", &name)]);
                 let header = CollapsingHeader::new(title).id_salt("suggest");
-                let shown = header.show(ui, |ui| self.suggest.show_recipe_proposals(ui, seen, &source, out));
+                let shown = header.show(ui, |ui| self.suggest.show_recipe_proposals(ui, seen, &source));
                 if let Some(chosen) = shown.body_returned.flatten() {
                     let opened = None;
                     self.open_recipe_text(&chosen.recipe, opened, chosen.gloss);
@@ -520,19 +520,14 @@ impl PaneInterface for RecombinePane {
         }
         self.naming = false;
         if let Some(thing) = recombine_fields::take_requested_details(ui) {
-            out.send_command(WindowCommand::Inspect(thing));
+            seen.send_command(WindowCommand::Inspect(thing));
         }
-        self.keep_up(seen, ui.input(|input| input.time), out);
+        self.keep_up(seen, ui.input(|input| input.time));
         self.count_corpus_operations(&seen.snapshot.overview.operations);
         self.settle_in_time(ui);
     }
 
-    fn carry_out_pane_action(
-        &mut self,
-        action: Action,
-        seen: &PaneInput<'_>,
-        out: &mut CommandOutbox,
-    ) -> ActionOutcome {
+    fn carry_out_pane_action(&mut self, action: Action, seen: &PaneInput<'_>) -> ActionOutcome {
         match action {
             Action::CardUp | Action::CardDown | Action::CardDuplicate | Action::CardSwitch | Action::CardRemove => {
                 match self.chosen {
@@ -550,7 +545,7 @@ impl PaneInterface for RecombinePane {
             }
             Action::RecombineSelected => match recombine_fields::selected_recipe(seen) {
                 Some((recipe, _)) => {
-                    out.send_command(WindowCommand::Recipe(recipe, None));
+                    seen.send_command(WindowCommand::Recipe(recipe, None));
                     ActionOutcome::Yes
                 }
                 None => ActionOutcome::Cannot(crate::words::shell::NEEDS_ANNOTATION),

@@ -39,7 +39,7 @@ impl StoredSign {
 
 impl RecombinePane {
     /// Shows the bar with the gloss and the button that stores the sign.
-    pub(super) fn show_store_bar(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    pub(super) fn show_store_bar(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         let made = self.live.made.is_some() && self.live.trouble.is_none() && self.wrong.is_none();
         if let Some(made) = &self.live.made {
             let time = format!("{:.2}", made.duration_us as f64 / 1e6);
@@ -90,10 +90,10 @@ impl RecombinePane {
             let button = ui.add_enabled(ready, Button::new(seen.say_text(text)));
             let pressed = button.on_disabled_hover_text(seen.say_text(why)).clicked();
             if pressed || (entered && ready) {
-                self.store_recipe_sign(out);
+                self.store_recipe_sign(seen.out);
             }
         });
-        self.storing_again(ui, seen, out, made);
+        self.storing_again(ui, seen, made);
         // After an undo the stored sign does not exist any more, or has its former recipe again.
         let stored = self.stored.as_ref();
         if let Some(stored) = stored.filter(|stored| stored.is_in_snapshot(seen.snapshot)) {
@@ -104,15 +104,15 @@ impl RecombinePane {
                 );
                 ui.label(RichText::new(text).color(seen.pane_colours().good));
                 if ui.small_button(seen.say_text(words::SHOW_STORED)).clicked() {
-                    out.send_command(WindowCommand::Recording(stored.recording));
-                    out.send_command(WindowCommand::Look);
+                    seen.send_command(WindowCommand::Recording(stored.recording));
+                    seen.send_command(WindowCommand::Look);
                 }
             });
         }
     }
 
     /// Shows the button that replaces the sign whose recipe was opened.
-    fn storing_again(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox, made: bool) {
+    fn storing_again(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, made: bool) {
         let opened_name = self.opened.as_deref();
         let opened = opened_name.and_then(|name| seen.snapshot.recording_named(name));
         let Some(glance) = opened.filter(|glance| glance.recipe.is_some()) else {
@@ -135,11 +135,11 @@ impl RecombinePane {
         if button.on_disabled_hover_text(seen.say_text(why)).clicked() {
             self.stored = None;
             let recording = glance.row.id;
-            self.storing = Some(out.request_work(recombining::store_again(recipe, recording)));
+            self.storing = Some(seen.request_work(recombining::store_again(recipe, recording)));
         }
     }
 
-    fn store_recipe_sign(&mut self, out: &mut CommandOutbox) {
+    fn store_recipe_sign(&mut self, out: &CommandOutbox) {
         let (recipe, gloss) = (self.stack.used_recipe_text(), self.gloss.trim().to_owned());
         self.stored = None;
         self.storing = Some(out.request_work(recombining::store_recipe_job(recipe, gloss)));

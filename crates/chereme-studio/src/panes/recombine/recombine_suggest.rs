@@ -88,7 +88,7 @@ pub(super) fn field_text(field: &str) -> Option<InterfaceText> {
 
 impl ProposalList {
     /// Requests suggestions for a sign, if it differs from the last one.
-    fn request_sign_suggestions(&mut self, of: &str, out: &mut CommandOutbox) {
+    fn request_sign_suggestions(&mut self, of: &str, out: &CommandOutbox) {
         if self.of == of {
             return;
         }
@@ -123,9 +123,8 @@ impl ProposalList {
         ui: &mut Ui,
         seen: &PaneInput<'_>,
         of: &str,
-        out: &mut CommandOutbox,
     ) -> Option<RecipeProposal> {
-        self.request_sign_suggestions(of, out);
+        self.request_sign_suggestions(of, seen.out);
         if let Some(wrong) = &self.wrong {
             ui.label(RichText::new(wrong).weak());
             return None;

@@ -7,7 +7,6 @@ use chereme_motion::{RecordingInstant, TimeSpan};
 use chereme_sign::query::ExampleToken;
 
 use super::search_builder::{self, QueryCondition};
-use crate::command::CommandOutbox;
 use crate::context::PaneInput;
 use crate::model::{InspectedThing, TokenSign};
 use crate::work::{WorkId, WorkOutcome, WorkResult, recordings_jobs};
@@ -34,7 +33,7 @@ fn find_example_tokens(query: &str) -> Vec<i64> {
 
 impl KnownExamples {
     /// Looks up the unknown tokens of a query.
-    pub(super) fn look_up_unknown_examples(&mut self, query: &str, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    pub(super) fn look_up_unknown_examples(&mut self, query: &str, seen: &PaneInput<'_>) {
         if !query.contains("token:") {
             return;
         }
@@ -46,7 +45,7 @@ impl KnownExamples {
             match seen.snapshot.known_token_sign(token) {
                 Some(known) => drop(self.known.insert(token, known)),
                 None => {
-                    let id = out.request_work(recordings_jobs::look_up_details_job(InspectedThing::Token(token)));
+                    let id = seen.request_work(recordings_jobs::look_up_details_job(InspectedThing::Token(token)));
                     self.looking.insert(id, token);
                 }
             }

@@ -177,12 +177,12 @@ impl Default for SearchPane {
 
 impl SearchPane {
     /// Searches with a query from another pane.
-    pub(crate) fn search_for_query(&mut self, query: String, out: &mut CommandOutbox) {
+    pub(crate) fn search_for_query(&mut self, query: String, out: &CommandOutbox) {
         self.turn_to_query(query, out);
     }
 
     /// Searches with the present text.
-    fn search_present_text(&mut self, out: &mut CommandOutbox) {
+    fn search_present_text(&mut self, out: &CommandOutbox) {
         let asked_work = self.asked.take().into_iter();
         let old = asked_work.chain(std::mem::take(&mut self.pages).into_keys());
         old.for_each(|id| out.send_command(WindowCommand::Stop(id)));
@@ -207,13 +207,13 @@ impl SearchPane {
     }
 
     /// Sets another query, and searches with it.
-    fn turn_to_query(&mut self, query: String, out: &mut CommandOutbox) {
+    fn turn_to_query(&mut self, query: String, out: &CommandOutbox) {
         self.field.set_query_text(query);
         self.rows = ConditionRows::default();
         self.search_present_text(out);
     }
 
-    fn sort_by(&mut self, sort: HitSort, out: &mut CommandOutbox) {
+    fn sort_by(&mut self, sort: HitSort, out: &CommandOutbox) {
         let asks = sort.corpus_order() != self.sort.corpus_order();
         self.sort = sort;
         match &mut self.found {
@@ -223,7 +223,7 @@ impl SearchPane {
     }
 
     /// Requests the missing data of the visible hits.
-    fn request_visible_hits(&mut self, range: Range<usize>, out: &mut CommandOutbox) {
+    fn request_visible_hits(&mut self, range: Range<usize>, out: &CommandOutbox) {
         let Some(found) = &self.found else { return };
         if self.asked.is_none()
             && self.pages.is_empty()
@@ -249,7 +249,7 @@ impl SearchPane {
     }
 
     /// Opens a hit at its place; one that has only a notation is animated and shown on the stage.
-    fn open_hit_at(&mut self, at: usize, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn open_hit_at(&mut self, at: usize, seen: &PaneInput<'_>) {
         let Some(found) = &self.found else { return };
         let Some(hit) = found.hit_at(at) else { return };
         self.opened = Some(at);
@@ -258,31 +258,31 @@ impl SearchPane {
             .and_then(|(name, span)| Some((seen.snapshot.recording_named(name)?.row.id, span)));
         match recorded {
             Some((recording, span)) => {
-                out.send_command(WindowCommand::Made(None));
-                out.send_command(WindowCommand::Place(recording, span));
-                out.send_command(WindowCommand::Look);
+                seen.send_command(WindowCommand::Made(None));
+                seen.send_command(WindowCommand::Place(recording, span));
+                seen.send_command(WindowCommand::Look);
                 match found.hit_neighbours(hit.token).cloned() {
-                    Some(around) => select_token_annotation(&around, out),
+                    Some(around) => select_token_annotation(&around, seen.out),
                     None => {
                         let job = searching::load_neighbours_job(vec![hit.token], MAX_HIT_NEIGHBOURS);
-                        self.aside.opening = Some(out.request_work(job));
+                        self.aside.opening = Some(seen.request_work(job));
                     }
                 }
             }
             None => {
-                out.send_command(WindowCommand::Made(None));
+                seen.send_command(WindowCommand::Made(None));
                 if seen.snapshot.is_notated(&hit.gloss) {
-                    out.send_command(WindowCommand::Note(InspectedThing::Token(hit.token)));
-                    self.notated.open_notated_sign(hit.token, &hit.gloss, out);
+                    seen.send_command(WindowCommand::Note(InspectedThing::Token(hit.token)));
+                    self.notated.open_notated_sign(hit.token, &hit.gloss, seen.out);
                 } else {
-                    out.send_command(WindowCommand::Inspect(InspectedThing::Token(hit.token)));
+                    seen.send_command(WindowCommand::Inspect(InspectedThing::Token(hit.token)));
                 }
             }
         }
     }
 
     /// Shows the opened notated sign on the stage once it is animated, even if another pane covers this one.
-    pub(crate) fn show_animated_hit(&mut self, out: &mut CommandOutbox) {
+    pub(crate) fn show_animated_hit(&mut self, out: &CommandOutbox) {
         self.notated.show_opened_notation(out);
     }
 
@@ -292,7 +292,7 @@ impl SearchPane {
     }
 
     /// Lists the possible actions for the opened hit if it has no movement.
-    pub(super) fn show_movement_hint(&self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    pub(super) fn show_movement_hint(&self, ui: &mut Ui, seen: &PaneInput<'_>) {
         let opened_hit = self.found.as_ref().zip(self.opened);
         let Some(hit) = opened_hit.and_then(|(found, at)| found.hit_at(at)) else {
             return;
@@ -306,12 +306,12 @@ impl SearchPane {
             Some(MovementAbsence::Coded)
         };
         if let Some(bare) = bare {
-            without_movement::show_movement_absence(ui, seen, out, hit.token, &hit.gloss, &bare);
+            without_movement::show_movement_absence(ui, seen, hit.token, &hit.gloss, &bare);
         }
     }
 
     /// Searches for signs similar to the selected token, or to the token at the selected time.
-    fn like_selected(&mut self, seen: &PaneInput<'_>, out: &mut CommandOutbox) -> bool {
+    fn like_selected(&mut self, seen: &PaneInput<'_>) -> bool {
         let Some(contents) = seen
             .shown
             .recording
@@ -341,13 +341,13 @@ impl SearchPane {
         let Some(token) = by_annotation.or_else(by_time) else {
             return false;
         };
-        self.turn_to_query(like_query(&seen.snapshot.overview, token.id, &token.gloss), out);
+        self.turn_to_query(like_query(&seen.snapshot.overview, token.id, &token.gloss), seen.out);
         self.built = true;
         true
     }
 
     /// Searches again if the corpus changed.
-    fn repeat_changed_search(&mut self, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn repeat_changed_search(&mut self, seen: &PaneInput<'_>) {
         let now = seen.snapshot.overview.generation;
         if self.generation == now {
             return;
@@ -362,7 +362,7 @@ impl SearchPane {
         }
         let asked = self.found.is_some() || self.wrong.is_some();
         if asked && self.changed.is_none() {
-            self.search_present_text(out);
+            self.search_present_text(seen.out);
         }
     }
 }
@@ -383,7 +383,7 @@ pub(crate) fn like_query(overview: &CorpusOverview, token: i64, gloss: &str) -> 
 }
 
 /// Selects the annotation of a token, and its tier.
-fn select_token_annotation(around: &chereme_corpus::TokenNeighbours, out: &mut CommandOutbox) {
+fn select_token_annotation(around: &chereme_corpus::TokenNeighbours, out: &CommandOutbox) {
     if let Some((annotation, tier)) = around.annotation.zip(around.tier) {
         out.send_command(WindowCommand::Tier(Some(tier)));
         out.send_command(WindowCommand::Annotations([annotation].into()));
@@ -391,15 +391,15 @@ fn select_token_annotation(around: &chereme_corpus::TokenNeighbours, out: &mut C
 }
 
 impl PaneInterface for SearchPane {
-    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
-        self.repeat_changed_search(seen, out);
+    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
+        self.repeat_changed_search(seen);
         if let Some(around) = self.aside.opened.take() {
-            select_token_annotation(&around, out);
+            select_token_annotation(&around, seen.out);
         }
         if seen.snapshot.overview.signs.is_empty() {
             ui.label(seen.say_text(words::EMPTY));
             if ui.button(seen.say_text(crate::words::library::IMPORT)).clicked() {
-                out.send_command(WindowCommand::Do(Action::Import));
+                seen.send_command(WindowCommand::Do(Action::Import));
             }
             return;
         }
@@ -413,21 +413,16 @@ impl PaneInterface for SearchPane {
         } else {
             left
         };
-        area.show(ui, |ui| self.draw_search_page(ui, seen, out, high));
+        area.show(ui, |ui| self.draw_search_page(ui, seen, high));
     }
 
-    fn carry_out_pane_action(
-        &mut self,
-        action: Action,
-        seen: &PaneInput<'_>,
-        out: &mut CommandOutbox,
-    ) -> ActionOutcome {
+    fn carry_out_pane_action(&mut self, action: Action, seen: &PaneInput<'_>) -> ActionOutcome {
         match action {
             Action::SearchLike => {
-                if !self.like_selected(seen, out) {
+                if !self.like_selected(seen) {
                     return ActionOutcome::Cannot(words::NOTHING_SELECTED);
                 }
-                out.send_command(WindowCommand::Do(Action::Search));
+                seen.send_command(WindowCommand::Do(Action::Search));
                 ActionOutcome::Yes
             }
             Action::SearchView => {
@@ -435,7 +430,7 @@ impl PaneInterface for SearchPane {
                     ResultsView::Grid => ResultsView::Table,
                     ResultsView::Table => ResultsView::Grid,
                 };
-                out.send_command(WindowCommand::Do(Action::Search));
+                seen.send_command(WindowCommand::Do(Action::Search));
                 ActionOutcome::Yes
             }
             _ => ActionOutcome::No,

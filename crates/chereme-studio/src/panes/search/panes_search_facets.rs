@@ -13,7 +13,7 @@ use eframe::egui::{
 
 use super::hits::attribute_name_text;
 use super::search_rows::{component_text, feature_text};
-use crate::command::{CommandOutbox, WindowCommand};
+use crate::command::WindowCommand;
 use crate::context::PaneInput;
 use crate::model::InspectedThing;
 use crate::panes::library::library_data::origin_named;
@@ -74,7 +74,6 @@ pub(super) fn show_search_facets(
     query: &str,
     conditions: &mut FacetConditions,
     height: f32,
-    out: &mut CommandOutbox,
 ) -> Option<String> {
     let mut chosen = None;
     ScrollArea::vertical()
@@ -103,12 +102,12 @@ pub(super) fn show_search_facets(
                     let asks = ui.input(|input| input.modifiers.command);
                     match thing {
                         Some(thing) if response.clicked() && asks => {
-                            out.send_command(WindowCommand::Inspect(thing));
+                            seen.send_command(WindowCommand::Inspect(thing));
                         }
                         _ if response.clicked() => {
                             chosen = toggle_facet_condition(query, field, value);
                         }
-                        Some(thing) => show_facet_menu(seen, &response, thing, out),
+                        Some(thing) => show_facet_menu(seen, &response, thing),
                         None => {}
                     }
                 }
@@ -181,10 +180,10 @@ pub(crate) fn facet_name(field: &str, seen: &PaneInput<'_>) -> String {
 }
 
 /// Offers the details of a value in a context menu.
-fn show_facet_menu(seen: &PaneInput<'_>, response: &Response, thing: InspectedThing, out: &mut CommandOutbox) {
+fn show_facet_menu(seen: &PaneInput<'_>, response: &Response, thing: InspectedThing) {
     response.context_menu(|ui| {
         if ui.button(seen.say_text(library::INSPECT)).clicked() {
-            out.send_command(WindowCommand::Inspect(thing));
+            seen.send_command(WindowCommand::Inspect(thing));
             ui.close();
         }
     });

@@ -10,7 +10,7 @@ use eframe::egui::{
 
 use super::hits::{self, HitSort, hit_coding_values};
 use super::{ResultsView, SearchPane};
-use crate::command::{CommandOutbox, DraggedToken, WindowCommand};
+use crate::command::{DraggedToken, WindowCommand};
 use crate::context::PaneInput;
 use crate::miniatures::{self, MiniatureCell, MiniatureFocus, MiniatureMotion};
 use crate::panes::timeline::timeline_paint::hatch_proposal;
@@ -66,17 +66,17 @@ impl ColumnShares {
 }
 
 /// Draws the hits.
-pub(crate) fn show_search_results(search: &mut SearchPane, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+pub(crate) fn show_search_results(search: &mut SearchPane, ui: &mut Ui, seen: &PaneInput<'_>) {
     match search.view {
-        ResultsView::Grid => draw_result_grid(search, ui, seen, out),
+        ResultsView::Grid => draw_result_grid(search, ui, seen),
         ResultsView::Table => {
-            draw_table_head(search, ui, seen, out);
-            draw_result_table(search, ui, seen, out);
+            draw_table_head(search, ui, seen);
+            draw_result_table(search, ui, seen);
         }
     }
 }
 
-fn draw_result_grid(search: &mut SearchPane, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+fn draw_result_grid(search: &mut SearchPane, ui: &mut Ui, seen: &PaneInput<'_>) {
     let Some(total) = search.found.as_ref().map(|found| found.total) else {
         return;
     };
@@ -91,11 +91,11 @@ fn draw_result_grid(search: &mut SearchPane, ui: &mut Ui, seen: &PaneInput<'_>, 
     let area = result_scroll_area(search, ui, "figures", columns, height + FIGURE_GAP_POINTS);
     ui.spacing_mut().item_spacing = Vec2::splat(FIGURE_GAP_POINTS);
     let output = area.show_rows(ui, height, rows, |ui, range| {
-        search.request_visible_hits(range.start * columns..range.end * columns, out);
+        search.request_visible_hits(range.start * columns..range.end * columns, seen.out);
         for row in range {
             ui.horizontal(|ui| {
                 for at in row * columns..((row + 1) * columns).min(total) {
-                    draw_result_figure(search, ui, seen, out, at, vec2(width, height));
+                    draw_result_figure(search, ui, seen, at, vec2(width, height));
                 }
             });
         }
@@ -103,14 +103,7 @@ fn draw_result_grid(search: &mut SearchPane, ui: &mut Ui, seen: &PaneInput<'_>, 
     search.scrolled = output.state.clamped_offset().y;
 }
 
-fn draw_result_figure(
-    search: &mut SearchPane,
-    ui: &mut Ui,
-    seen: &PaneInput<'_>,
-    out: &mut CommandOutbox,
-    at: usize,
-    size: Vec2,
-) {
+fn draw_result_figure(search: &mut SearchPane, ui: &mut Ui, seen: &PaneInput<'_>, at: usize, size: Vec2) {
     let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
     let Some(hit) = search.found.as_ref().and_then(|found| found.hit_at(at)).cloned() else {
         ui.painter().rect_filled(rect, 6.0, ui.visuals().faint_bg_color);
@@ -122,7 +115,7 @@ fn draw_result_figure(
     let made = match &motion {
         // Movement from notation is costly, and made only for pictures that are in sight.
         None if ui.is_rect_visible(rect) && seen.snapshot.is_notated(&hit.gloss) => {
-            let made = search.notated.notated_clip(hit.token, &hit.gloss, out);
+            let made = search.notated.notated_clip(hit.token, &hit.gloss, seen.out);
             made.map(MiniatureMotion::Made)
         }
         _ => None,
@@ -130,7 +123,7 @@ fn draw_result_figure(
     let notated = motion.is_none();
     let motion = motion.or(made);
     carry::make_sign_draggable(&response, hit_drag_payload(&hit), motion.clone());
-    show_hit_menu(&response, seen, &hit, out);
+    show_hit_menu(&response, seen, &hit);
     match motion.filter(|motion| !seen.little.is_nothing(motion)) {
         Some(motion) => {
             // The keyboard has the same right to movement as the pointer.
@@ -140,7 +133,7 @@ fn draw_result_figure(
             if playing {
                 little = little.with_playing_clock(miniatures::figure_loop_clock(ui));
             }
-            seen.little.paint_figure(ui, seen.language, out, &little, picture);
+            seen.little.paint_figure(ui, seen.language, seen.out, &little, picture);
             if notated {
                 paint_coding_pictures(ui, seen, &hit, picture, true);
             }
@@ -181,7 +174,7 @@ fn draw_result_figure(
     }
     draw_hit_frame(search, ui, seen, &response, rect, at);
     if response.clicked() {
-        search.open_hit_at(at, seen, out);
+        search.open_hit_at(at, seen);
     }
 }
 
@@ -193,14 +186,14 @@ pub(super) fn hit_drag_payload(hit: &SearchHit) -> DraggedToken {
     }
 }
 
-fn show_hit_menu(response: &Response, seen: &PaneInput<'_>, hit: &SearchHit, out: &mut CommandOutbox) {
+fn show_hit_menu(response: &Response, seen: &PaneInput<'_>, hit: &SearchHit) {
     let recording = hit_recording_id(hit, seen);
     if response.double_clicked()
         && let Some((recipe, name)) = recording.and_then(|id| seen.snapshot.recipe_of(id))
     {
-        out.send_command(WindowCommand::Recipe(recipe, Some(name)));
+        seen.send_command(WindowCommand::Recipe(recipe, Some(name)));
     }
-    response.context_menu(|ui| carry::show_sign_menu(ui, seen, hit.token, &hit.gloss, recording, out));
+    response.context_menu(|ui| carry::show_sign_menu(ui, seen, hit.token, &hit.gloss, recording));
 }
 
 /// Returns the recording that contains a hit.
@@ -315,7 +308,7 @@ fn paint_coding_pictures(ui: &Ui, seen: &PaneInput<'_>, hit: &SearchHit, rect: R
     shown
 }
 
-fn draw_table_head(search: &mut SearchPane, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+fn draw_table_head(search: &mut SearchPane, ui: &mut Ui, seen: &PaneInput<'_>) {
     let width = ui.available_width() - 12.0;
     let (rect, _) = ui.allocate_exact_size(vec2(width, RESULT_ROW_HEIGHT_POINTS), Sense::hover());
     let is_complete = search.found.as_ref().is_some_and(super::hits::QueryAnswer::is_whole);
@@ -352,7 +345,7 @@ fn draw_table_head(search: &mut SearchPane, ui: &mut Ui, seen: &PaneInput<'_>, o
             ui.painter().rect_stroke(place, 3.0, stroke, StrokeKind::Inside);
         }
         if response.clicked() {
-            search.sort_by(if chosen { HitSort::Rank } else { sort }, out);
+            search.sort_by(if chosen { HitSort::Rank } else { sort }, seen.out);
         }
         if column + 1 < RESULT_TABLE_COLUMNS.len() {
             handle_column_edge(search, ui, seen, place, width, column);
@@ -394,7 +387,7 @@ fn handle_column_edge(search: &mut SearchPane, ui: &Ui, seen: &PaneInput<'_>, pl
         .vline(edge_rect.center().x, inside.y_range(), Stroke::new(1.0, colour));
 }
 
-fn draw_result_table(search: &mut SearchPane, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+fn draw_result_table(search: &mut SearchPane, ui: &mut Ui, seen: &PaneInput<'_>) {
     let Some(total) = search.found.as_ref().map(|found| found.total) else {
         return;
     };
@@ -404,23 +397,16 @@ fn draw_result_table(search: &mut SearchPane, ui: &mut Ui, seen: &PaneInput<'_>,
     let area = result_scroll_area(search, ui, "rows", 1, RESULT_ROW_HEIGHT_POINTS);
     ui.spacing_mut().item_spacing.y = 0.0;
     let output = area.show_rows(ui, RESULT_ROW_HEIGHT_POINTS, total, |ui, range| {
-        search.request_visible_hits(range.clone(), out);
+        search.request_visible_hits(range.clone(), seen.out);
         for at in range {
             let (rect, _) = ui.allocate_exact_size(vec2(width, RESULT_ROW_HEIGHT_POINTS), Sense::hover());
-            draw_result_line(search, ui, seen, out, at, rect);
+            draw_result_line(search, ui, seen, at, rect);
         }
     });
     search.scrolled = output.state.clamped_offset().y;
 }
 
-fn draw_result_line(
-    search: &mut SearchPane,
-    ui: &mut Ui,
-    seen: &PaneInput<'_>,
-    out: &mut CommandOutbox,
-    at: usize,
-    rect: Rect,
-) {
+fn draw_result_line(search: &mut SearchPane, ui: &mut Ui, seen: &PaneInput<'_>, at: usize, rect: Rect) {
     let Some(found) = &search.found else { return };
     let Some(hit) = found.hit_at(at).cloned() else {
         ui.weak("…");
@@ -434,7 +420,7 @@ fn draw_result_line(
     draw_hit_frame(search, ui, seen, &response, rect, at);
     let (text, weak) = (ui.visuals().text_color(), ui.visuals().weak_text_color());
     carry::make_sign_draggable(&response, hit_drag_payload(&hit), find_hit_motion(&hit, seen));
-    show_hit_menu(&response, seen, &hit, out);
+    show_hit_menu(&response, seen, &hit);
     if hit.recording.is_none() {
         let pictures = Rect::from_min_max(
             pos2(
@@ -482,7 +468,7 @@ fn draw_result_line(
         paint_column_text(ui, place, &content, font, colour, sort == HitSort::Before);
     }
     if response.clicked() {
-        search.open_hit_at(at, seen, out);
+        search.open_hit_at(at, seen);
     }
 }
 

@@ -6,7 +6,6 @@ use chereme_sign::query::{add_query_condition, attribute_field_text, facet_condi
 use eframe::egui::{Button, RichText, ScrollArea, Ui, Window, vec2};
 
 use super::panes_search_facets::facet_name;
-use crate::command::CommandOutbox;
 use crate::context::PaneInput;
 use crate::panes::combo::show_named_combo;
 use crate::words::{fill_text_braces, search_words as words, translate_library_message};
@@ -56,13 +55,7 @@ impl CrossTable {
     }
 
     /// Shows the open table; a press on a cell returns the query for its tokens.
-    pub(super) fn show_cross_table(
-        &mut self,
-        ui: &Ui,
-        seen: &PaneInput<'_>,
-        query: &str,
-        out: &mut CommandOutbox,
-    ) -> Option<String> {
+    pub(super) fn show_cross_table(&mut self, ui: &Ui, seen: &PaneInput<'_>, query: &str) -> Option<String> {
         if !self.is_open {
             return None;
         }
@@ -71,7 +64,7 @@ impl CrossTable {
         let now = (query.to_owned(), fields.clone());
         if self.counted.as_ref() != Some(&now) {
             let job = searching::tally_values_job(now.0.clone(), fields.to_vec());
-            self.asked = Some(out.request_work(job));
+            self.asked = Some(seen.request_work(job));
             (self.counted, self.table) = (Some(now), None);
         }
         let (mut is_open, mut chosen) = (true, None);

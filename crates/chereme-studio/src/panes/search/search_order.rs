@@ -102,7 +102,7 @@ impl CountedAttribute {
     }
 
     /// Requests the counts of an answer that lacks them.
-    pub(super) fn request_attribute_counts(&mut self, query: &str, out: &mut CommandOutbox) {
+    pub(super) fn request_attribute_counts(&mut self, query: &str, out: &CommandOutbox) {
         if let Some(name) = self.name.as_ref().filter(|_| !self.is_requested) {
             let field = attribute_field_text(name);
             self.asked = Some(out.request_work(searching::tally_values_job(query.to_owned(), vec![field])));

@@ -9,7 +9,7 @@ use super::{
     search_suggest, search_symbols, side_column,
 };
 use crate::action::Action;
-use crate::command::{CommandOutbox, WindowCommand};
+use crate::command::WindowCommand;
 use crate::context::PaneInput;
 use crate::window_remedy;
 use crate::words::{InterfaceLanguage, fill_text_braces, search_words as words, translate_library_message};
@@ -23,34 +23,34 @@ const ORDER_WIDTH_POINTS: f32 = 260.0;
 
 impl SearchPane {
     /// Draws the page, with the results `high` points high.
-    pub(super) fn draw_search_page(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox, high: f32) {
+    pub(super) fn draw_search_page(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, high: f32) {
         let top = ui.cursor().top();
-        self.draw_search_question(ui, seen, out);
+        self.draw_search_question(ui, seen);
         self.head = ui.cursor().top() - top + ui.spacing().interact_size.y;
         if self.field.text.trim().is_empty() {
-            if let Some(query) = self.tiles.show_component_tiles(ui, seen, out) {
-                self.turn_to_query(query, out);
+            if let Some(query) = self.tiles.show_component_tiles(ui, seen) {
+                self.turn_to_query(query, seen.out);
             }
             // The wall of all signs is shown below.
             if self.found.is_none() && self.asked.is_none() && self.wrong.is_none() && !self.stopped {
-                self.search_present_text(out);
+                self.search_present_text(seen.out);
             }
         } else if self.found.is_none() && self.asked.is_none() {
             return;
         }
-        self.draw_search_status(ui, seen, out);
+        self.draw_search_status(ui, seen);
         self.head = ui.cursor().top() - top;
         let size = vec2(ui.available_width(), high);
         ui.allocate_ui(size, |ui| {
             ui.set_width(size.x);
             ui.set_max_height(size.y);
-            self.show_movement_hint(ui, seen, out);
-            self.draw_search_answer(ui, seen, out);
+            self.show_movement_hint(ui, seen);
+            self.draw_search_answer(ui, seen);
         });
     }
 
     /// Draws the query: its text, its rows, and the buttons for it.
-    fn draw_search_question(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn draw_search_question(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         let now = ui.input(|input| input.time);
         let wrong_from = self.wrong.as_ref().and_then(|wrong| wrong.from);
         let wrong = wrong_from.filter(|_| self.query == self.field.text);
@@ -73,8 +73,8 @@ impl SearchPane {
             self.field.take_focus();
             // Entering a text hides the rows if there is not enough room for them and the results.
             self.built &= !self.low;
-            self.aside.remember_recent_query(&self.field.text, seen, out);
-            self.search_present_text(out);
+            self.aside.remember_recent_query(&self.field.text, seen);
+            self.search_present_text(seen.out);
         }
         if typed.down && self.found.as_ref().is_some_and(|found| found.total > 0) {
             self.move_cursor_to_hit(self.at);
@@ -97,24 +97,24 @@ impl SearchPane {
             if let Some((meant, query)) = mended {
                 let text = fill_text_braces(seen.say_text(words::MEND), &[("text", &meant)]);
                 if ui.small_button(text).clicked() {
-                    self.turn_to_query(query, out);
+                    self.turn_to_query(query, seen.out);
                 }
             }
         }
-        self.draw_search_tools(ui, seen, out);
-        self.examples.look_up_unknown_examples(&self.field.text, seen, out);
+        self.draw_search_tools(ui, seen);
+        self.examples.look_up_unknown_examples(&self.field.text, seen);
         let text = &mut self.field.text;
-        if self.built && search_rows::show_condition_rows(ui, &mut self.rows, seen, text, &self.examples, out) {
-            self.search_present_text(out);
+        if self.built && search_rows::show_condition_rows(ui, &mut self.rows, seen, text, &self.examples) {
+            self.search_present_text(seen.out);
         }
         for picker in self.rows.pickers.values_mut() {
-            picker.inspect_requested_value(seen, out);
+            picker.inspect_requested_value(seen);
         }
         let settled = self.changed.is_some_and(|when| now - when >= SEARCH_PAUSE_SECONDS);
         let error = TokenQuery::parse_query(&self.field.text).err();
         let end = self.field.text.trim_end().chars().count();
         if settled && !typed.unfinished && error.is_none() {
-            self.search_present_text(out);
+            self.search_present_text(seen.out);
         } else if settled && error.is_some_and(|error| error.at.start < end) {
             // The old answer does not belong to the new query.
             (self.found, self.changed) = (None, None);
@@ -123,7 +123,7 @@ impl SearchPane {
         }
     }
 
-    fn draw_search_tools(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn draw_search_tools(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         ui.horizontal_wrapped(|ui| {
             if ui.available_width() < FACETS_BESIDE_WIDTH_POINTS {
                 // In a narrow pane the buttons are narrower, so that all of them fit into one line.
@@ -134,16 +134,16 @@ impl SearchPane {
             if rows.clicked() {
                 self.built = !self.built;
             }
-            let turned = self.aside.draw_query_menus(ui, seen, out, &self.field.text);
+            let turned = self.aside.draw_query_menus(ui, seen, &self.field.text);
             let asked = search_symbols::show_symbol_search(ui, seen, &mut self.symbols);
             if let Some(query) = turned.or(asked) {
-                self.turn_to_query(query, out);
+                self.turn_to_query(query, seen.out);
             }
         });
     }
 
     /// Draws the number of results, and the switches for their form.
-    fn draw_search_status(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn draw_search_status(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         let mut counted = self.is_showing_facets(ui);
         ui.horizontal_wrapped(|ui| {
             if let Some(running) = self.asked.filter(|id| seen.is_running(Some(*id))) {
@@ -153,12 +153,12 @@ impl SearchPane {
                     ui.weak(fill_text_braces(seen.say_text(words::LOOKED_AT), &[("n", &far.done)]));
                 }
                 if ui.button(seen.say_text(words::STOP)).clicked() {
-                    out.send_command(WindowCommand::Stop(running));
+                    seen.send_command(WindowCommand::Stop(running));
                 }
             } else if self.stopped {
                 ui.strong(seen.say_text(words::STOPPED));
                 if ui.button(seen.say_text(words::SEARCH_AGAIN)).clicked() {
-                    self.search_present_text(out);
+                    self.search_present_text(seen.out);
                 }
             } else if let Some(found) = &self.found {
                 ui.strong(fill_text_braces(seen.say_text(words::FOUND), &[("n", &found.total)]));
@@ -175,7 +175,7 @@ impl SearchPane {
             let room = ui.available_size_before_wrap().x;
             let is_order_beside = room > ORDER_WIDTH_POINTS;
             if is_order_beside {
-                self.choose_order(ui, seen, out);
+                self.choose_order(ui, seen);
             }
             if room > FULL_SWITCHES_WIDTH_POINTS {
                 self.form_switches(ui, seen, &mut counted);
@@ -183,7 +183,7 @@ impl SearchPane {
                 // A second line would take its height from the results.
                 ui.menu_button(seen.say_text(words::DISPLAY), |ui| {
                     if !is_order_beside {
-                        self.choose_order(ui, seen, out);
+                        self.choose_order(ui, seen);
                     }
                     self.form_switches(ui, seen, &mut counted);
                 });
@@ -191,9 +191,9 @@ impl SearchPane {
         });
     }
 
-    fn choose_order(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn choose_order(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         if let Some(sort) = search_order::show_order_menu(ui, seen, &self.sort, &mut self.descending) {
-            self.sort_by(sort, out);
+            self.sort_by(sort, seen.out);
         }
     }
 
@@ -215,7 +215,7 @@ impl SearchPane {
             .unwrap_or(ui.available_width() > FACETS_BESIDE_WIDTH_POINTS)
     }
 
-    fn draw_search_answer(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn draw_search_answer(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         let Some(found) = &self.found else { return };
         for note in &found.notes {
             ui.label(
@@ -225,35 +225,34 @@ impl SearchPane {
             );
         }
         if let Some(query) = side_column::show_answer_findings(ui, seen, found, &self.query) {
-            return self.turn_to_query(query, out);
+            return self.turn_to_query(query, seen.out);
         }
         if found.total == 0 {
-            if let Some(query) = self.aside.report_empty_results(ui, seen, out, &self.query) {
-                self.turn_to_query(query, out);
+            if let Some(query) = self.aside.report_empty_results(ui, seen, &self.query) {
+                self.turn_to_query(query, seen.out);
             }
             return;
         }
         if !self.is_showing_facets(ui) {
-            return results::show_search_results(self, ui, seen, out);
+            return results::show_search_results(self, ui, seen);
         }
         let wide = ui.available_width() > FACETS_BESIDE_WIDTH_POINTS;
-        self.counted_attribute.request_attribute_counts(&self.query, out);
+        self.counted_attribute.request_attribute_counts(&self.query, seen.out);
         let facets = found.facets.clone();
         let query = self.field.text.clone();
-        let mut wanted = self.cross_table.show_cross_table(ui, seen, &self.query, out);
+        let mut wanted = self.cross_table.show_cross_table(ui, seen, &self.query);
         if wide {
             let room = ui.available_size();
             ui.horizontal_top(|ui| {
                 let side = (room.x * 0.28).clamp(150.0, 220.0);
                 ui.allocate_ui(vec2(room.x - side - 10.0, room.y), |ui| {
                     ui.set_width(room.x - side - 10.0);
-                    ui.vertical(|ui| results::show_search_results(self, ui, seen, out));
+                    ui.vertical(|ui| results::show_search_results(self, ui, seen));
                 });
                 ui.vertical(|ui| {
                     self.show_count_menu(ui, seen);
                     let (conditions, high) = (&mut self.conditions, ui.available_height());
-                    let facet =
-                        panes_search_facets::show_search_facets(ui, seen, &facets, &query, conditions, high, out);
+                    let facet = panes_search_facets::show_search_facets(ui, seen, &facets, &query, conditions, high);
                     wanted = wanted.take().or(facet);
                 });
             });
@@ -262,13 +261,13 @@ impl SearchPane {
             ui.allocate_ui(vec2(ui.available_width(), high), |ui| {
                 self.show_count_menu(ui, seen);
                 let conditions = &mut self.conditions;
-                let facet = panes_search_facets::show_search_facets(ui, seen, &facets, &query, conditions, high, out);
+                let facet = panes_search_facets::show_search_facets(ui, seen, &facets, &query, conditions, high);
                 wanted = wanted.take().or(facet);
             });
-            results::show_search_results(self, ui, seen, out);
+            results::show_search_results(self, ui, seen);
         }
         if let Some(query) = wanted {
-            self.turn_to_query(query, out);
+            self.turn_to_query(query, seen.out);
         }
     }
 }

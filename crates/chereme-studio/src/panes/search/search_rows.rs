@@ -12,7 +12,6 @@ use eframe::egui::{Button, ComboBox, DragValue, RichText, Role, Sense, Slider, U
 
 use super::examples::KnownExamples;
 use super::search_builder::{self, ConditionRelation, ConditionSubject, QueryCondition, format_query_pattern};
-use crate::command::CommandOutbox;
 use crate::context::PaneInput;
 use crate::miniatures::{self, MiniatureCell, MiniatureMotion};
 use crate::model::TokenSign;
@@ -48,7 +47,6 @@ pub(super) fn show_condition_rows(
     seen: &PaneInput<'_>,
     text: &mut String,
     examples: &KnownExamples,
-    out: &mut CommandOutbox,
 ) -> bool {
     let Ok(query) = TokenQuery::parse_query(text) else {
         ui.label(RichText::new(seen.say_text(words::NO_ROWS)).small().weak());
@@ -69,7 +67,7 @@ pub(super) fn show_condition_rows(
                 if has_pictures(seen, condition) {
                     ui.set_row_height(36.0);
                 }
-                show_condition_row(ui, rows, seen, at, condition, examples, out);
+                show_condition_row(ui, rows, seen, at, condition, examples);
                 let name = fill_text_braces(seen.say_text(words::REMOVE), &[("row", &(at + 1))]);
                 let remove = ui.small_button("×").on_hover_text(&name);
                 remove.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
@@ -260,7 +258,6 @@ fn show_condition_row(
     at: usize,
     condition: &mut QueryCondition,
     examples: &KnownExamples,
-    out: &mut CommandOutbox,
 ) {
     match condition {
         QueryCondition::Values(subject, how, values) => {
@@ -290,17 +287,10 @@ fn show_condition_row(
             time_ui(ui, test);
         }
         QueryCondition::Like(example, weights, above) => {
-            like_ui(
-                ui,
-                seen,
-                out,
-                examples.find_known_example(example, seen),
-                weights,
-                above,
-            );
+            like_ui(ui, seen, examples.find_known_example(example, seen), weights, above);
         }
         QueryCondition::Said(value, sources) => {
-            show_condition_row(ui, rows, seen, at, value, examples, out);
+            show_condition_row(ui, rows, seen, at, value, examples);
             ui.weak(seen.say_text(words::VALUE_SAID));
             ui.end_row();
             let mut gone = None;
@@ -310,7 +300,7 @@ fn show_condition_row(
                         ui.horizontal(|ui| {
                             // Texts that are being typed are kept by row, and no other row has this number.
                             let row = (at + 1) * MAX_SHOWN_ROWS + place;
-                            show_condition_row(ui, rows, seen, row, source, examples, out);
+                            show_condition_row(ui, rows, seen, row, source, examples);
                             if ui.small_button("−").clicked() {
                                 gone = Some(place);
                             }
@@ -598,7 +588,6 @@ fn time_ui(ui: &mut Ui, test: &mut TimeTest) {
 fn like_ui(
     ui: &mut Ui,
     seen: &PaneInput<'_>,
-    out: &mut CommandOutbox,
     example: Option<TokenSign>,
     weights: &mut [f64; 5],
     above: &mut Option<f64>,
@@ -609,7 +598,7 @@ fn like_ui(
         let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
         let motion = MiniatureMotion::Span(recording, span);
         let cell = MiniatureCell::new(motion, size).with_playing_clock(miniatures::figure_loop_clock(ui));
-        seen.little.paint_figure(ui, seen.language, out, &cell, rect);
+        seen.little.paint_figure(ui, seen.language, seen.out, &cell, rect);
     }
     let name = match example.gloss.as_str() {
         "" => "…",

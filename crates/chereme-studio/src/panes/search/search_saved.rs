@@ -55,15 +55,9 @@ impl SavedSearchList {
     }
 
     /// Draws the button with the list behind it; returns the chosen query.
-    pub(super) fn show_saved_search_menu(
-        &mut self,
-        ui: &mut Ui,
-        seen: &PaneInput<'_>,
-        out: &mut CommandOutbox,
-        query: &str,
-    ) -> Option<String> {
+    pub(super) fn show_saved_search_menu(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, query: &str) -> Option<String> {
         if let Some(saved) = self.left.take() {
-            out.send_command(WindowCommand::Searches(SearchHistory {
+            seen.send_command(WindowCommand::Searches(SearchHistory {
                 saved,
                 ..seen.settings.searches.clone()
             }));
@@ -76,15 +70,15 @@ impl SavedSearchList {
             .accessible_name(seen.say_text(words::SAVED))
             .show(|ui| {
                 ui.set_min_width(300.0);
-                self.show_save_search_field(ui, seen, out, query);
-                chosen = self.draw_saved_searches(ui, seen, out);
-                self.of_this_computer(ui, seen, out);
+                self.show_save_search_field(ui, seen, query);
+                chosen = self.draw_saved_searches(ui, seen);
+                self.of_this_computer(ui, seen);
             });
         chosen
     }
 
     /// Draws the field that saves the query under a name.
-    fn show_save_search_field(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox, query: &str) {
+    fn show_save_search_field(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, query: &str) {
         ui.horizontal(|ui| {
             let hint = seen.say_text(words::SAVE_NAME);
             let before = self.name.clone();
@@ -110,21 +104,21 @@ impl SavedSearchList {
                 let other = all.iter().find(same).filter(|kept| kept.query != query);
                 self.replacing = other.map(|kept| kept.name.clone());
                 if self.replacing.is_none() {
-                    self.save_search_query(query, out);
+                    self.save_search_query(query, seen.out);
                 }
             }
         });
-        self.confirm_search_replacement(ui, seen, out, query);
+        self.confirm_search_replacement(ui, seen, query);
     }
 
-    fn save_search_query(&mut self, query: &str, out: &mut CommandOutbox) {
+    fn save_search_query(&mut self, query: &str, out: &CommandOutbox) {
         let name = std::mem::take(&mut self.name);
         let query = query.to_owned();
         out.request_work(searching::save_searches(vec![KeptSearch { name, query }]));
     }
 
     /// Asks whether the query replaces the saved search of its name, while that is open.
-    fn confirm_search_replacement(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox, query: &str) {
+    fn confirm_search_replacement(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, query: &str) {
         let typed = fold_text(self.name.trim());
         let asked = self.replacing.take();
         let Some(name) = asked.filter(|name| fold_text(name) == typed) else {
@@ -133,7 +127,7 @@ impl SavedSearchList {
         ui.horizontal_wrapped(|ui| {
             ui.label(fill_text_braces(seen.say_text(words::REPLACES), &[("name", &name)]));
             if ui.button(seen.say_text(words::REPLACE)).clicked() {
-                self.save_search_query(query, out);
+                self.save_search_query(query, seen.out);
             } else {
                 self.replacing = Some(name);
             }
@@ -141,7 +135,7 @@ impl SavedSearchList {
     }
 
     /// Draws the saved searches; returns the chosen one.
-    fn draw_saved_searches(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) -> Option<String> {
+    fn draw_saved_searches(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) -> Option<String> {
         let mut chosen = None;
         let all = &seen.snapshot.overview.searches;
         if all.is_empty() {
@@ -149,11 +143,11 @@ impl SavedSearchList {
         }
         ScrollArea::vertical().max_height(320.0).show(ui, |ui| {
             for kept in all {
-                self.count_saved_search_hits(&kept.query, out);
+                self.count_saved_search_hits(&kept.query, seen.out);
                 let hit_count = self.counts.get(&kept.query).copied().flatten();
                 ui.push_id(&kept.name, |ui| {
                     ui.horizontal(|ui| {
-                        if self.show_rename_search_field(ui, seen, &kept.name, out) {
+                        if self.show_rename_search_field(ui, seen, &kept.name) {
                             return;
                         }
                         let number = hit_count.map_or(String::new(), |count| count.to_string());
@@ -168,7 +162,7 @@ impl SavedSearchList {
                         }
                         let name = fill_text_braces(seen.say_text(words::DELETE), &[("name", &kept.name)]);
                         if draw_named_button(ui, "×", &name) {
-                            out.request_work(searching::delete_search(kept.name.clone()));
+                            seen.request_work(searching::delete_search(kept.name.clone()));
                         }
                     });
                 });
@@ -178,13 +172,7 @@ impl SavedSearchList {
     }
 
     /// Draws the field that renames a saved search, if it is this one.
-    fn show_rename_search_field(
-        &mut self,
-        ui: &mut Ui,
-        seen: &PaneInput<'_>,
-        name: &str,
-        out: &mut CommandOutbox,
-    ) -> bool {
+    fn show_rename_search_field(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, name: &str) -> bool {
         let Some((of, text)) = self.renaming.as_mut().filter(|(of, _)| of == name) else {
             return false;
         };
@@ -200,7 +188,7 @@ impl SavedSearchList {
         if response.lost_focus() {
             let to = shown.trim();
             if !to.is_empty() && to != name {
-                out.request_work(searching::rename_search(name.to_owned(), to.to_owned()));
+                seen.request_work(searching::rename_search(name.to_owned(), to.to_owned()));
             }
             self.renaming = None;
         } else if !response.has_focus() {
@@ -210,7 +198,7 @@ impl SavedSearchList {
     }
 
     /// Offers the searches saved on this computer, from before corpora saved searches.
-    fn of_this_computer(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn of_this_computer(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         let old = &seen.settings.searches.saved;
         if old.is_empty() {
             return;
@@ -229,16 +217,16 @@ impl SavedSearchList {
                 let names = [("names", &clashing_names.join(", ") as &dyn std::fmt::Display)];
                 ui.label(fill_text_braces(seen.say_text(words::TAKE_REPLACES), &names));
                 if ui.button(seen.say_text(words::TAKE_ALL)).clicked() && free {
-                    self.take_over(old, Vec::new(), out);
+                    self.take_over(old, Vec::new(), seen.out);
                 }
                 let others = Button::new(seen.say_text(words::TAKE_OTHERS));
                 if ui.add_enabled(!fresh.is_empty(), others).clicked() && free {
-                    self.take_over(&fresh, clashing, out);
+                    self.take_over(&fresh, clashing, seen.out);
                 }
             } else if ui.button(seen.say_text(words::TAKE_OVER)).clicked() && free {
                 self.taking_asks = !clashing.is_empty();
                 if !self.taking_asks {
-                    self.take_over(old, Vec::new(), out);
+                    self.take_over(old, Vec::new(), seen.out);
                 }
             }
             if ui.button(seen.say_text(words::LEAVE_BEHIND)).clicked() {
@@ -248,7 +236,7 @@ impl SavedSearchList {
     }
 
     /// Saves searches of this computer in the corpus; the others stay on this computer.
-    fn take_over(&mut self, all: &[SavedSearch], left: Vec<SavedSearch>, out: &mut CommandOutbox) {
+    fn take_over(&mut self, all: &[SavedSearch], left: Vec<SavedSearch>, out: &CommandOutbox) {
         let all = all.iter().map(|saved| KeptSearch {
             name: saved.name.clone(),
             query: saved.query.clone(),
@@ -257,7 +245,7 @@ impl SavedSearchList {
         (self.taking, self.taking_asks) = (Some((id, left)), false);
     }
 
-    fn count_saved_search_hits(&mut self, query: &str, out: &mut CommandOutbox) {
+    fn count_saved_search_hits(&mut self, query: &str, out: &CommandOutbox) {
         if self.counts.contains_key(query) {
             return;
         }

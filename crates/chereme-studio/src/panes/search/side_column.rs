@@ -54,7 +54,7 @@ struct ComponentCoverage {
 
 impl ComponentCoverage {
     /// Counts the tokens that have each component of a query.
-    fn request_component_counts(&mut self, query: &str, out: &mut CommandOutbox) {
+    fn request_component_counts(&mut self, query: &str, out: &CommandOutbox) {
         self.counts.clear();
         self.counting.clear();
         for component in required_query_components(query) {
@@ -74,7 +74,7 @@ impl ComponentCoverage {
     }
 
     /// Reports which components nobody has coded yet, and offers to infer them from movement.
-    fn show_uncoded_components(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn show_uncoded_components(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         let glances = seen.snapshot.overview.recordings.iter();
         let moving = glances.filter(|glance| glance.frames > 0).count();
         for component in find_uncoded_components(&self.counts) {
@@ -92,7 +92,7 @@ impl ComponentCoverage {
                         ui.label(fill_text_braces(text, &[("n", &far.done), ("all", &all)]));
                     }
                     if ui.button(seen.say_text(words::STOP)).clicked() {
-                        out.send_command(WindowCommand::Stop(id));
+                        seen.send_command(WindowCommand::Stop(id));
                     }
                 });
             } else if moving > 0
@@ -101,7 +101,7 @@ impl ComponentCoverage {
             {
                 let text = fill_text_braces(seen.say_text(words::PROPOSE), &[("n", &moving)]);
                 if ui.button(text).clicked() {
-                    self.proposing = Some(out.request_work(analysis::propose_coding(component)));
+                    self.proposing = Some(seen.request_work(analysis::propose_coding(component)));
                 }
             }
         }
@@ -182,7 +182,7 @@ impl SearchSideColumn {
     }
 
     /// Stops the counts for an outdated query.
-    pub(super) fn stop_outdated_counts(&mut self, out: &mut CommandOutbox) {
+    pub(super) fn stop_outdated_counts(&mut self, out: &CommandOutbox) {
         let left = std::mem::take(&mut self.leaving).into_keys();
         left.for_each(|id| out.send_command(WindowCommand::Stop(id)));
     }
@@ -209,22 +209,16 @@ impl SearchSideColumn {
     }
 
     /// Adds a query to the recent ones.
-    pub(super) fn remember_recent_query(&mut self, query: &str, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    pub(super) fn remember_recent_query(&mut self, query: &str, seen: &PaneInput<'_>) {
         let mut searches = seen.settings.searches.clone();
         if TokenQuery::parse_query(query).is_ok() && searches.record_recent_query(query) {
-            out.send_command(WindowCommand::Searches(searches));
+            seen.send_command(WindowCommand::Searches(searches));
         }
     }
 
     /// Draws the menus; returns the chosen query.
-    pub(super) fn draw_query_menus(
-        &mut self,
-        ui: &mut Ui,
-        seen: &PaneInput<'_>,
-        out: &mut CommandOutbox,
-        query: &str,
-    ) -> Option<String> {
-        let mut chosen = self.kept.show_saved_search_menu(ui, seen, out, query);
+    pub(super) fn draw_query_menus(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, query: &str) -> Option<String> {
+        let mut chosen = self.kept.show_saved_search_menu(ui, seen, query);
         let recent = ui.button(seen.say_text(words::RECENT));
         Popup::menu(&recent).show(|ui| {
             ui.set_min_width(260.0);
@@ -257,20 +251,14 @@ impl SearchSideColumn {
     }
 
     /// Reports that nothing was found, and which condition excludes everything; returns the query chosen instead.
-    pub(super) fn report_empty_results(
-        &mut self,
-        ui: &mut Ui,
-        seen: &PaneInput<'_>,
-        out: &mut CommandOutbox,
-        query: &str,
-    ) -> Option<String> {
+    pub(super) fn report_empty_results(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, query: &str) -> Option<String> {
         ui.strong(seen.say_text(words::NOTHING));
         if self.without.as_ref().is_none_or(|without| without.query != query) {
             self.leaving.clear();
-            self.coded.request_component_counts(query, out);
+            self.coded.request_component_counts(query, seen.out);
             let parts = queries_without_condition(query);
             for (at, (_, rest)) in parts.iter().enumerate() {
-                let id = out.request_work(searching::search_tokens_job(rest.clone(), only_counted()));
+                let id = seen.request_work(searching::search_tokens_job(rest.clone(), only_counted()));
                 self.leaving.insert(id, at);
             }
             self.without = Some(RelaxedQueryCounts {
@@ -279,7 +267,7 @@ impl SearchSideColumn {
                 parts: parts.into_iter().map(|(part, rest)| (part, rest, None)).collect(),
             });
         }
-        self.coded.show_uncoded_components(ui, seen, out);
+        self.coded.show_uncoded_components(ui, seen);
         let without = self.without.as_ref()?;
         let mut chosen = None;
         if let Some(meant) = &without.meant {

@@ -6,7 +6,6 @@ use eframe::egui::{
 };
 
 use super::search_builder::with_value;
-use crate::command::CommandOutbox;
 use crate::context::PaneInput;
 use crate::miniatures;
 use crate::pickers::{self, ValuePicker};
@@ -44,12 +43,7 @@ pub(super) struct TilePickers {
 
 impl TilePickers {
     /// Shows the tiles; returns the query for the picked value.
-    pub(super) fn show_component_tiles(
-        &mut self,
-        ui: &mut Ui,
-        seen: &PaneInput<'_>,
-        out: &mut CommandOutbox,
-    ) -> Option<String> {
+    pub(super) fn show_component_tiles(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) -> Option<String> {
         let tiles: Vec<(usize, &ComponentInventory)> = SAMPLE_TILES
             .iter()
             .enumerate()
@@ -71,7 +65,7 @@ impl TilePickers {
                 if let Some(value) = pickers::show_picker_below(ui, &response, picker, seen, inventory, None, name) {
                     query = Some(with_value("", component.component_name(), &value));
                 }
-                picker.inspect_requested_value(seen, out);
+                picker.inspect_requested_value(seen);
             }
         });
         ui.add_space(4.0);

@@ -13,7 +13,7 @@ use eframe::egui::{
 use super::StagePane;
 use super::stage_data::{self, StageInset, StagePart};
 use crate::action::Action;
-use crate::command::{CommandOutbox, WindowCommand};
+use crate::command::WindowCommand;
 use crate::context::PaneInput;
 use crate::layout::PaneKind;
 use crate::pickers;
@@ -33,7 +33,6 @@ pub(super) fn show_stage_insets(
     stage: &StagePane,
     ui: &mut Ui,
     seen: &PaneInput<'_>,
-    out: &mut CommandOutbox,
     insets: &[StageInset],
     before: usize,
 ) {
@@ -73,7 +72,7 @@ pub(super) fn show_stage_insets(
         response.on_hover_text(tip.unwrap_or_else(|| name.to_owned()));
         // The face has one direction only, so that a click on it does nothing.
         if let Some(action) = action.filter(|_| clicked) {
-            out.send_command(WindowCommand::Do(action));
+            seen.send_command(WindowCommand::Do(action));
         }
     }
 }

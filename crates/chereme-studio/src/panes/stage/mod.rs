@@ -45,7 +45,7 @@ use chereme_motion::{BodySide, ModelPose};
 use eframe::egui::{Context, Id, Rect, TextureHandle, Ui};
 
 use crate::action::Action;
-use crate::command::{CommandOutbox, WindowCommand};
+use crate::command::WindowCommand;
 use crate::context::PaneInput;
 use crate::model::generated::GeneratedClip;
 use crate::panes::{ActionOutcome, PaneInterface};
@@ -154,7 +154,7 @@ struct MovementIdentity(usize);
 
 impl StagePane {
     /// Builds the figures of the displayed movement if it changed; `time` is in seconds of the window's clock.
-    fn rebuild_stage_figures(&mut self, seen: &PaneInput<'_>, time: f64, out: &mut CommandOutbox) {
+    fn rebuild_stage_figures(&mut self, seen: &PaneInput<'_>, time: f64) {
         let made = seen.shown.made.as_ref().map(|showing| &showing.made);
         let sample = seen.reel.sample_piece();
         let now = match (made, sample) {
@@ -182,10 +182,10 @@ impl StagePane {
             });
             self.asked = None;
         }
-        if self.original.request_original_movements(seen, out) {
+        if self.original.request_original_movements(seen) {
             self.asked = None;
         }
-        if self.points.request_recording_points(seen, out) {
+        if self.points.request_recording_points(seen) {
             self.asked = None;
         }
     }
@@ -278,23 +278,18 @@ impl StagePane {
 }
 
 impl PaneInterface for StagePane {
-    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         if !std::mem::replace(&mut self.remembered, true) {
             self.apply_stage_settings(&seen.settings.stage);
         }
-        stage_ui::show_stage_pane(self, ui, seen, out);
+        stage_ui::show_stage_pane(self, ui, seen);
         let settings = self.stage_settings();
         if settings != seen.settings.stage {
-            out.send_command(WindowCommand::Stage(Box::new(settings)));
+            seen.send_command(WindowCommand::Stage(Box::new(settings)));
         }
     }
 
-    fn carry_out_pane_action(
-        &mut self,
-        action: Action,
-        _seen: &PaneInput<'_>,
-        out: &mut CommandOutbox,
-    ) -> ActionOutcome {
+    fn carry_out_pane_action(&mut self, action: Action, _seen: &PaneInput<'_>) -> ActionOutcome {
         match action {
             Action::StageSplit => self.split_stage_views(match self.eyes.len() {
                 1 => 2,
@@ -319,7 +314,7 @@ impl PaneInterface for StagePane {
             Action::StageFace => self.insets.face = !self.insets.face,
             Action::StageGrid => self.shows.grid = !self.shows.grid,
             Action::StageCompare => self.compare = self.compare.next(),
-            Action::StageRecording => out.send_command(WindowCommand::Made(None)),
+            Action::StageRecording => _seen.out.send_command(WindowCommand::Made(None)),
             other if self.look_from(other) => {}
             _ => return ActionOutcome::No,
         }

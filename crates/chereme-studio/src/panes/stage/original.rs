@@ -6,7 +6,6 @@ use chereme_corpus::{DisplayedMovement, MadePart};
 use chereme_motion::RecordingInstant;
 
 use super::stage_scene::StageSubject;
-use crate::command::CommandOutbox;
 use crate::context::PaneInput;
 use crate::work::{WorkId, WorkOutcome, WorkResult, movement_jobs};
 
@@ -36,7 +35,7 @@ pub(super) struct OriginalPiece {
 
 impl OriginalMovements {
     /// Requests the originals if the movement on the stage changed; returns whether it did.
-    pub(super) fn request_original_movements(&mut self, seen: &PaneInput<'_>, out: &mut CommandOutbox) -> bool {
+    pub(super) fn request_original_movements(&mut self, seen: &PaneInput<'_>) -> bool {
         let source = match &seen.shown.made {
             Some(showing) => Some(OriginalSource::Parts(showing.made.parts.clone())),
             None => {
@@ -55,7 +54,7 @@ impl OriginalMovements {
         *self = Self {
             // The request before is dropped with the old state: its answer would be of another movement.
             source,
-            work: job.map(|job| out.request_work(job)),
+            work: job.map(|job| seen.request_work(job)),
             ..Self::default()
         };
         true

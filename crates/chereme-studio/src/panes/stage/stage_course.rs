@@ -52,7 +52,6 @@ pub(super) fn show_stage_path(
     stage: &mut StagePane,
     ui: &mut Ui,
     seen: &PaneInput<'_>,
-    out: &mut CommandOutbox,
     pane: &StagePart,
     projection: CameraProjection,
     pose: &ModelPose,
@@ -96,12 +95,12 @@ pub(super) fn show_stage_path(
     paint_stage_path(&painter, seen, &layout);
     // While a new path is drawn, the old one must not be pulled.
     if drawing_card_id(ui.ctx()) == Some(course.card) {
-        draw_new_path(ui, seen, out, &layout);
+        draw_new_path(ui, seen, &layout);
         return;
     }
-    pull_line(stage, ui, seen, out, &layout);
+    pull_line(stage, ui, seen, &layout);
     for point in 0..layout.points.len() {
-        pull_point(stage, ui, seen, out, &layout, point);
+        pull_point(stage, ui, seen, &layout, point);
     }
 }
 
@@ -129,14 +128,7 @@ fn paint_stage_path(painter: &Painter, seen: &PaneInput<'_>, laid: &PathInPictur
 }
 
 /// Handles a point of the path: it can be pulled, moved by keys, or removed by a click with the secondary button.
-fn pull_point(
-    stage: &mut StagePane,
-    ui: &mut Ui,
-    seen: &PaneInput<'_>,
-    out: &mut CommandOutbox,
-    laid: &PathInPicture<'_>,
-    point: usize,
-) {
+fn pull_point(stage: &mut StagePane, ui: &mut Ui, seen: &PaneInput<'_>, laid: &PathInPicture<'_>, point: usize) {
     let place = laid.base + laid.axes * laid.points[point];
     let screen_point = project_path_position(laid.projection, laid.pane, place);
     if !laid.pane.contains(screen_point) {
@@ -160,13 +152,13 @@ fn pull_point(
     // A path needs one point at least.
     if response.secondary_clicked() && points.len() > 1 {
         points.remove(point);
-        return send_path_points(laid, &points, out);
+        return send_path_points(laid, &points, seen.out);
     }
     if response.dragged() {
         stage.pull = Some(PathPull { point });
         if let Some(to) = pulled_path_position(ui, laid, place) {
             points[point] = to;
-            send_path_points(laid, &points, out);
+            send_path_points(laid, &points, seen.out);
         }
     }
     if response.drag_stopped() {
@@ -176,18 +168,12 @@ fn pull_point(
         && let Some(by) = path_key_step(ui, &response.id)
     {
         points[point] += by;
-        send_path_points(laid, &points, out);
+        send_path_points(laid, &points, seen.out);
     }
 }
 
 /// Handles pulls between the points: they insert a new point.
-fn pull_line(
-    stage: &mut StagePane,
-    ui: &mut Ui,
-    seen: &PaneInput<'_>,
-    out: &mut CommandOutbox,
-    laid: &PathInPicture<'_>,
-) {
+fn pull_line(stage: &mut StagePane, ui: &mut Ui, seen: &PaneInput<'_>, laid: &PathInPicture<'_>) {
     let id = path_widget_id(ui, laid).with("line");
     let pointer = ui.input(|input| input.pointer.interact_pos());
     let Some(pointer) = pointer.filter(|at| laid.pane.contains(*at)) else {
@@ -218,7 +204,7 @@ fn pull_line(
         if let Some(to) = pulled_path_position(ui, laid, place) {
             points.insert(point_index, to);
             stage.pull = Some(PathPull { point: point_index });
-            return send_path_points(laid, &points, out);
+            return send_path_points(laid, &points, seen.out);
         }
     }
     if response.dragged()
@@ -228,7 +214,7 @@ fn pull_line(
         let place = laid.base + laid.axes * point;
         if let Some(to) = pulled_path_position(ui, laid, place) {
             points[pull.point] = to;
-            send_path_points(laid, &points, out);
+            send_path_points(laid, &points, seen.out);
         }
     }
     if response.drag_stopped() {
@@ -237,7 +223,7 @@ fn pull_line(
 }
 
 /// Draws a new path with the pointer, in the plane through its beginning that is perpendicular to the line of sight.
-fn draw_new_path(ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox, laid: &PathInPicture<'_>) {
+fn draw_new_path(ui: &mut Ui, seen: &PaneInput<'_>, laid: &PathInPicture<'_>) {
     let id = path_widget_id(ui, laid).with("draw");
     let response = ui.interact(laid.pane, id, Sense::drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, seen.say_text(words::DRAW_ON_STAGE)));
@@ -263,7 +249,7 @@ fn draw_new_path(ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox, lai
         });
         let points = points_of_line(&deep.collect::<Vec<_>>());
         if !points.is_empty() {
-            out.send_command(WindowCommand::Travelled(laid.card, points));
+            seen.send_command(WindowCommand::Travelled(laid.card, points));
             draw_on_stage(ui.ctx(), None);
         }
         line.clear();
@@ -311,7 +297,7 @@ fn path_key_step(ui: &Ui, id: &Id) -> Option<DVec3> {
 }
 
 /// Sends the path with these points to its card.
-fn send_path_points(laid: &PathInPicture<'_>, points: &[DVec3], out: &mut CommandOutbox) {
+fn send_path_points(laid: &PathInPicture<'_>, points: &[DVec3], out: &CommandOutbox) {
     let points = points.iter().map(|at| lengths_from_position(*at)).collect();
     out.send_command(WindowCommand::Travelled(laid.card, points));
 }

@@ -83,7 +83,6 @@ pub(super) fn show_stage_handles(
     stage: &mut StagePane,
     ui: &mut Ui,
     seen: &PaneInput<'_>,
-    out: &mut CommandOutbox,
     pane: &Pane,
     projection: CameraProjection,
     pose: &ModelPose,
@@ -123,7 +122,7 @@ pub(super) fn show_stage_handles(
             whole: Some(side) == first,
             id: handle_widget_id(ui, pane, side),
         };
-        show_hand_handle(&mut stage.holding, ui, seen, out, &view_handle, &made.anatomy, pose);
+        show_hand_handle(&mut stage.holding, ui, seen, &view_handle, &made.anatomy, pose);
     }
 }
 
@@ -138,7 +137,6 @@ fn show_hand_handle(
     holding: &mut HandleState,
     ui: &mut Ui,
     seen: &PaneInput<'_>,
-    out: &mut CommandOutbox,
     held: &HandleInView<'_>,
     anatomy: &BodyAnatomy,
     pose: &ModelPose,
@@ -176,7 +174,7 @@ fn show_hand_handle(
             let name = format!("{}, {}", hand_handle_name(seen, held.side), axis_name(seen, nth));
             let cm = held.value[nth] * 100.0;
             response.widget_info(|| WidgetInfo::slider(true, cm, &name));
-            assisted(ui, out, held, nth, response.id);
+            assisted(ui, seen.out, held, nth, response.id);
             ends[nth] = Some(response);
         }
     }
@@ -212,9 +210,9 @@ fn show_hand_handle(
             origin: handle_origin,
             pose,
         };
-        continue_handle_drag(holding, ui, seen, out, held, &touched);
+        continue_handle_drag(holding, ui, seen, held, &touched);
     }
-    handle_gizmo_keys(holding, ui, out, held, &response);
+    handle_gizmo_keys(holding, ui, seen.out, held, &response);
     let grabbed = holding.grab.as_ref().filter(|grab| grab.side == held.side);
     let dragged = grabbed.map(|grab| (grab.begun.part, grab.begun.origin));
     paint_stage_handle(ui, seen, held, &laid, lit, response.has_focus(), dragged);
@@ -266,7 +264,7 @@ fn nearest_handle_part(held: &HandleInView<'_>, laid: &GizmoLayout, at: Pos2) ->
 }
 
 /// Lets assistive technology move the handle along an axis, in steps.
-fn assisted(ui: &Ui, out: &mut CommandOutbox, held: &HandleInView<'_>, nth: usize, id: Id) {
+fn assisted(ui: &Ui, out: &CommandOutbox, held: &HandleInView<'_>, nth: usize, id: Id) {
     use egui::accesskit::Action::{Decrement, Increment};
     ui.ctx().accesskit_node_builder(id, |node| {
         node.add_action(Increment);
@@ -342,7 +340,6 @@ fn continue_handle_drag(
     holding: &mut HandleState,
     ui: &Ui,
     seen: &PaneInput<'_>,
-    out: &mut CommandOutbox,
     held: &HandleInView<'_>,
     touched: &TouchedHandle<'_>,
 ) {
@@ -360,7 +357,7 @@ fn continue_handle_drag(
         ui.memory_mut(|memory| memory.request_focus(held.id));
         let was_playing = seen.shown.on_stage().is_playing();
         if was_playing {
-            out.send_command(WindowCommand::Do(Action::ShuttleStop));
+            seen.send_command(WindowCommand::Do(Action::ShuttleStop));
         }
         holding.before = Some((held.handle.card, held.handle.to.clone()));
         holding.grab = Some(HandleGrab {
@@ -388,7 +385,7 @@ fn continue_handle_drag(
     }
     if !grab.over && ui.input(|input| input.key_pressed(Key::Escape)) {
         grab.over = true;
-        restore_handle_goal(&mut holding.before, held, out);
+        restore_handle_goal(&mut holding.before, held, seen.out);
     } else if !grab.over
         && (response.dragged() || response.is_pointer_button_down_on())
         && let Some(place) = response.interact_pointer_pos()
@@ -398,19 +395,19 @@ fn continue_handle_drag(
         if let Some(value) = grab.begun.dragged_gizmo_value(ray(place), held.directions.axes, step)
             && value != held.value
         {
-            send_handle_value(held, value, out);
+            send_handle_value(held, value, seen.out);
         }
     }
     // A press without a drag ends without an event of its own.
     if response.drag_stopped() || !ui.input(|input| input.pointer.any_down()) {
         if grab.was_playing {
-            out.send_command(WindowCommand::Do(Action::Play));
+            seen.send_command(WindowCommand::Do(Action::Play));
         }
         holding.grab = None;
     }
 }
 
-fn send_handle_value(held: &HandleInView<'_>, value: [f64; 3], out: &mut CommandOutbox) {
+fn send_handle_value(held: &HandleInView<'_>, value: [f64; 3], out: &CommandOutbox) {
     let goal = held.handle.goal_with_value(value);
     out.send_command(WindowCommand::Placed(held.handle.card, goal));
 }
@@ -419,7 +416,7 @@ fn send_handle_value(held: &HandleInView<'_>, value: [f64; 3], out: &mut Command
 fn restore_handle_goal(
     before: &mut Option<(u64, chereme_corpus::recipe::PlacementGoal)>,
     held: &HandleInView<'_>,
-    out: &mut CommandOutbox,
+    out: &CommandOutbox,
 ) {
     if let Some((card, goal)) = before.take().filter(|entry| entry.0 == held.handle.card) {
         out.send_command(WindowCommand::Placed(card, goal));
@@ -430,7 +427,7 @@ fn restore_handle_goal(
 fn handle_gizmo_keys(
     holding: &mut HandleState,
     ui: &Ui,
-    out: &mut CommandOutbox,
+    out: &CommandOutbox,
     held: &HandleInView<'_>,
     response: &Response,
 ) {

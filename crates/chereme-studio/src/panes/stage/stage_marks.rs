@@ -8,7 +8,7 @@ use eframe::egui::{Align2, Painter, Rect, Role, Sense, Stroke, Ui, Vec2, WidgetI
 use glam::DVec3;
 
 use super::stage_scene::StageSubject;
-use crate::command::{CommandOutbox, WindowCommand};
+use crate::command::WindowCommand;
 use crate::context::PaneInput;
 use crate::model::InspectedThing;
 
@@ -123,7 +123,6 @@ fn paint_body_mark_name(painter: &Painter, ui: &Ui, rect: Rect, name: &str) {
 pub(super) fn show_body_marks(
     ui: &mut Ui,
     seen: &PaneInput<'_>,
-    out: &mut CommandOutbox,
     rect: Rect,
     projection: &CameraProjection,
     scale: f32,
@@ -171,8 +170,8 @@ pub(super) fn show_body_marks(
             paint_body_mark_name(&painter, ui, rect, &mark.name);
         }
         if response.clicked() {
-            out.send_command(WindowCommand::Spot(Some(zone.clone())));
-            out.send_command(WindowCommand::Inspect(InspectedThing::Value(
+            seen.send_command(WindowCommand::Spot(Some(zone.clone())));
+            seen.send_command(WindowCommand::Inspect(InspectedThing::Value(
                 mark.inventory,
                 zone.clone(),
             )));

@@ -8,7 +8,6 @@ use chereme_figure::mesh::TriangleMesh;
 use chereme_figure::{FigureView, PaperTheme, PointCloud};
 use chereme_motion::{MarkerTrack, RecordingInstant, TimeSpan};
 
-use crate::command::CommandOutbox;
 use crate::context::PaneInput;
 use crate::work::{WorkId, WorkOutcome, WorkResult, movement_jobs};
 
@@ -38,7 +37,7 @@ pub(super) struct RecordingPoints {
 impl RecordingPoints {
     /// Switches to the displayed recording, and requests the piece at the playhead; returns whether the picture
     /// changes.
-    pub(super) fn request_recording_points(&mut self, seen: &PaneInput<'_>, out: &mut CommandOutbox) -> bool {
+    pub(super) fn request_recording_points(&mut self, seen: &PaneInput<'_>) -> bool {
         let source = recording_point_tracks(seen);
         // Theme and recording both change the clouds, so that everything is loaded again.
         let changed = source != self.source || seen.dark != self.dark;
@@ -71,7 +70,10 @@ impl RecordingPoints {
             if let Some(piece) = wanted {
                 let start = RecordingInstant::from_micros(piece * POINT_PIECE_LENGTH_MICROS);
                 let span = TimeSpan::span_between(start, start.shifted_instant(POINT_PIECE_LENGTH_MICROS));
-                self.asked = Some((out.request_work(movement_jobs::load_points_job(recording, span)), piece));
+                self.asked = Some((
+                    seen.request_work(movement_jobs::load_points_job(recording, span)),
+                    piece,
+                ));
             }
         }
         changed

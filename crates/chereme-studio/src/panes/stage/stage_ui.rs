@@ -21,7 +21,7 @@ use super::{
     stage_movement_source, tools, transport,
 };
 use crate::action::Action;
-use crate::command::{CommandOutbox, WindowCommand};
+use crate::command::WindowCommand;
 use crate::context::PaneInput;
 use crate::layout::PaneKind;
 use crate::miniatures;
@@ -41,9 +41,9 @@ const RECIPE_HASTE_FACTOR: f32 = 3.0;
 /// How long after a change of the recipe pictures are drawn as fast as in motion, in seconds.
 const RECIPE_SETTLE_SECONDS: f64 = 0.25;
 
-pub(super) fn show_stage_pane(stage: &mut StagePane, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+pub(super) fn show_stage_pane(stage: &mut StagePane, ui: &mut Ui, seen: &PaneInput<'_>) {
     let time = ui.input(|input| input.time);
-    stage.rebuild_stage_figures(seen, time, out);
+    stage.rebuild_stage_figures(seen, time);
     let frame = egui::Frame::new();
     // If there is little height, the signer gets it.
     let low = ui.available_height() < NARROW_STAGE_SIZE_POINTS.y || ui.available_width() < NARROW_STAGE_SIZE_POINTS.x;
@@ -51,23 +51,23 @@ pub(super) fn show_stage_pane(stage: &mut StagePane, ui: &mut Ui, seen: &PaneInp
         egui::Panel::top("stage tools")
             .frame(frame)
             .show_separator_line(false)
-            .show(ui, |ui| tools::show_stage_tools(stage, ui, seen, out));
+            .show(ui, |ui| tools::show_stage_tools(stage, ui, seen));
     }
     egui::Panel::bottom("transport")
         .frame(frame)
         .show_separator_line(false)
         .show(ui, |ui| {
-            transport::show_transport_bar(ui, seen, out, low, |ui, out| {
+            transport::show_transport_bar(ui, seen, low, |ui| {
                 if low {
                     ui.menu_button(seen.say_text(words::MORE_TOOLS), |ui| {
                         ui.set_min_width(260.0);
-                        tools::show_stage_tools(stage, ui, seen, out);
+                        tools::show_stage_tools(stage, ui, seen);
                     });
                 }
             });
         });
     let (whole, _) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
-    let Some(whole) = show_stage_films(stage, ui, seen, out, whole) else {
+    let Some(whole) = show_stage_films(stage, ui, seen, whole) else {
         return;
     };
     super::note_place(ui, whole);
@@ -85,28 +85,22 @@ pub(super) fn show_stage_pane(stage: &mut StagePane, ui: &mut Ui, seen: &PaneInp
             let above = whole.with_max_y(whole.bottom() - foot);
             miniatures::paint_text_placeholder(ui, above, seen.say_text(text));
             if let Some((text, action)) = next {
-                lead_on(ui, seen, out, whole, text, action);
+                lead_on(ui, seen, whole, text, action);
             }
         }
-        None => show_stage_parts(stage, ui, seen, out, whole),
+        None => show_stage_parts(stage, ui, seen, whole),
     }
 }
 
 /// Shows films on the stage if the film pane is not in sight: on the whole stage if there is no movement, else beside
 /// the signer. Returns the rest of the stage.
-fn show_stage_films(
-    stage: &StagePane,
-    ui: &mut Ui,
-    seen: &PaneInput<'_>,
-    out: &mut CommandOutbox,
-    whole: Rect,
-) -> Option<Rect> {
+fn show_stage_films(stage: &StagePane, ui: &mut Ui, seen: &PaneInput<'_>, whole: Rect) -> Option<Rect> {
     let made = seen.shown.made.is_some();
     if made || !seen.films.are_there() || PaneKind::Film.is_in_sight(ui.ctx()) {
         return Some(whole);
     }
     if why_nothing(stage, seen) == Some(words::NO_MOVEMENT) {
-        film_screens::show_film_screens(ui, seen, out, whole);
+        film_screens::show_film_screens(ui, seen, whole);
         return None;
     }
     // The longer side is divided.
@@ -118,7 +112,7 @@ fn show_stage_films(
         let middle = half(whole.top(), whole.bottom());
         (whole.with_max_y(middle - 2.0), whole.with_min_y(middle + 2.0))
     };
-    film_screens::show_film_screens(ui, seen, out, film);
+    film_screens::show_film_screens(ui, seen, film);
     Some(rest)
 }
 
@@ -147,23 +141,16 @@ fn why_nothing(stage: &StagePane, seen: &PaneInput<'_>) -> Option<InterfaceText>
 }
 
 /// Shows the next steps if the stage is empty: to the signs of a corpus without recordings, or to the import.
-fn lead_on(
-    ui: &mut Ui,
-    seen: &PaneInput<'_>,
-    out: &mut CommandOutbox,
-    whole: Rect,
-    text: InterfaceText,
-    action: Action,
-) {
+fn lead_on(ui: &mut Ui, seen: &PaneInput<'_>, whole: Rect, text: InterfaceText, action: Action) {
     let size = vec2(whole.width().min(200.0), 26.0);
     let place = Rect::from_center_size(whole.center_bottom() - vec2(0.0, 28.0), size);
     let response = ui.put(place, Button::new(seen.say_text(text)));
     if response.on_hover_text(seen.keys.action_keys_text(action)).clicked() {
-        out.send_command(WindowCommand::Do(action));
+        seen.send_command(WindowCommand::Do(action));
     }
 }
 
-fn show_stage_parts(stage: &mut StagePane, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox, whole: Rect) {
+fn show_stage_parts(stage: &mut StagePane, ui: &mut Ui, seen: &PaneInput<'_>, whole: Rect) {
     let parts = stage_data::divide_stage_parts(whole, stage.eyes.len(), stage.comparing());
     let mut dragged = false;
     for (index, part) in parts.iter().enumerate() {
@@ -178,7 +165,7 @@ fn show_stage_parts(stage: &mut StagePane, ui: &mut Ui, seen: &PaneInput<'_>, ou
     }
     let insets = insets::stage_insets(stage, &parts);
     let poses = update_stage_pictures(stage, ui, seen, &parts, &insets, dragged);
-    insets::show_stage_insets(stage, ui, seen, out, &insets, parts.len());
+    insets::show_stage_insets(stage, ui, seen, &insets, parts.len());
     insets::show_inset_proposal(ui, seen, &insets);
     let many = stage.eyes.len() > 1;
     stage.holding.forget_handle_widgets();
@@ -187,12 +174,12 @@ fn show_stage_parts(stage: &mut StagePane, ui: &mut Ui, seen: &PaneInput<'_>, ou
             && part.who != StagePartContent::Original
             && let Some(pose) = &poses
         {
-            show_part_marks(stage, ui, seen, out, part, pose);
+            show_part_marks(stage, ui, seen, part, pose);
         }
         if part.who != StagePartContent::Original
             && let Some(pose) = &poses
         {
-            handled(stage, ui, seen, out, part, pose);
+            handled(stage, ui, seen, part, pose);
         }
         show_part_labels(stage, ui, seen, part);
         if many && part.eye == stage.active {
@@ -579,18 +566,11 @@ fn part_projection(stage: &StagePane, part: &StagePart, pose: &ModelPose) -> Opt
 }
 
 /// Shows the handle of the placement that is being edited.
-fn handled(
-    stage: &mut StagePane,
-    ui: &mut Ui,
-    seen: &PaneInput<'_>,
-    out: &mut CommandOutbox,
-    part: &StagePart,
-    pose: &ModelPose,
-) {
+fn handled(stage: &mut StagePane, ui: &mut Ui, seen: &PaneInput<'_>, part: &StagePart, pose: &ModelPose) {
     let before = stage.holding.grab.is_some();
     if let Some(projection) = part_projection(stage, part, pose) {
-        stage_handle::show_stage_handles(stage, ui, seen, out, part, projection, pose);
-        stage_course::show_stage_path(stage, ui, seen, out, part, projection, pose);
+        stage_handle::show_stage_handles(stage, ui, seen, part, projection, pose);
+        stage_course::show_stage_path(stage, ui, seen, part, projection, pose);
         let panned = std::mem::take(&mut stage.holding.panned) / part.rect.height().max(1.0);
         stage.eyes[part.eye].pan_eye([panned.x, panned.y]);
     }
@@ -599,14 +579,7 @@ fn handled(
     }
 }
 
-fn show_part_marks(
-    stage: &mut StagePane,
-    ui: &mut Ui,
-    seen: &PaneInput<'_>,
-    out: &mut CommandOutbox,
-    part: &StagePart,
-    pose: &ModelPose,
-) {
+fn show_part_marks(stage: &mut StagePane, ui: &mut Ui, seen: &PaneInput<'_>, part: &StagePart, pose: &ModelPose) {
     let overview = &seen.snapshot.overview;
     let is_current = stage
         .zones
@@ -630,5 +603,5 @@ fn show_part_marks(
         })
     };
     let marks = stage_marks::body_marks(signer, pose, zones, name);
-    stage_marks::show_body_marks(ui, seen, out, part.rect, &projection, 1.0, &marks);
+    stage_marks::show_body_marks(ui, seen, part.rect, &projection, 1.0, &marks);
 }

@@ -6,7 +6,7 @@ use eframe::egui::{
 
 use super::StagePane;
 use crate::action::Action;
-use crate::command::{CommandOutbox, WindowCommand};
+use crate::command::WindowCommand;
 use crate::context::PaneInput;
 use crate::settings::stage_settings::OriginalComparison;
 use crate::words::{fill_text_braces, stage_words as words};
@@ -15,7 +15,7 @@ use crate::words::{fill_text_braces, stage_words as words};
 const GENERATED_NAME_WIDTH_POINTS: f32 = 220.0;
 
 /// Shows the switches for extras of the picture and for the number of views.
-pub(super) fn show_stage_tools(stage: &mut StagePane, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+pub(super) fn show_stage_tools(stage: &mut StagePane, ui: &mut Ui, seen: &PaneInput<'_>) {
     ui.spacing_mut().item_spacing = vec2(4.0, 4.0);
     ui.horizontal_wrapped(|ui| {
         for (count, text) in [(1, words::SPLIT_1), (2, words::SPLIT_2), (4, words::SPLIT_4)] {
@@ -54,7 +54,7 @@ pub(super) fn show_stage_tools(stage: &mut StagePane, ui: &mut Ui, seen: &PaneIn
             let hint = format!("{} ({})", seen.say_text(hint), seen.keys.action_keys_text(action));
             let button = Button::selectable(on, seen.say_text(text));
             if ui.add(button).on_hover_text(hint).clicked() {
-                out.send_command(WindowCommand::Do(action));
+                seen.send_command(WindowCommand::Do(action));
             }
         }
         if stage.points.are_there() && stage.signer.is_some() {
@@ -82,7 +82,7 @@ pub(super) fn show_stage_tools(stage: &mut StagePane, ui: &mut Ui, seen: &PaneIn
                 Action::ShareGlb,
             ] {
                 if ui.button(seen.say_text(action.action_row().name)).clicked() {
-                    out.send_command(WindowCommand::Do(action));
+                    seen.send_command(WindowCommand::Do(action));
                     ui.close();
                 }
             }
@@ -96,7 +96,7 @@ pub(super) fn show_stage_tools(stage: &mut StagePane, ui: &mut Ui, seen: &PaneIn
             };
             let back = ui.small_button(seen.say_text(back_text)).on_hover_text(keys);
             if back.clicked() {
-                out.send_command(WindowCommand::Made(None));
+                seen.send_command(WindowCommand::Made(None));
             }
             let made_name = fill_text_braces(seen.say_text(words::MADE_OF), &[("name", &showing.made.name)]);
             let name = RichText::new(made_name).color(seen.pane_colours().accent);

@@ -18,38 +18,32 @@ const TRANSPORT_BAR_HEIGHT_POINTS: f32 = 26.0;
 const TRANSPORT_BUTTON_SIZE_POINTS: Vec2 = vec2(30.0, 26.0);
 
 /// Shows the bar and the buttons; `low` if the stage has little height; `more` is called after the buttons.
-pub(super) fn show_transport_bar(
-    ui: &mut Ui,
-    seen: &PaneInput<'_>,
-    out: &mut CommandOutbox,
-    low: bool,
-    more: impl FnOnce(&mut Ui, &mut CommandOutbox),
-) {
+pub(super) fn show_transport_bar(ui: &mut Ui, seen: &PaneInput<'_>, low: bool, more: impl FnOnce(&mut Ui)) {
     ui.spacing_mut().item_spacing = vec2(4.0, if low { 2.0 } else { 4.0 });
     ui.add_space(if low { 2.0 } else { 4.0 });
-    show_playback_bar(ui, seen, out);
+    show_playback_bar(ui, seen);
     ui.horizontal_wrapped(|ui| {
         let player = seen.shown.on_stage();
         let playing = player.is_playing();
-        show_transport_button(ui, seen, out, TransportIcon::Start, Action::ToStart, None);
-        show_transport_button(ui, seen, out, TransportIcon::Back, Action::FrameBack, None);
+        show_transport_button(ui, seen, TransportIcon::Start, Action::ToStart, None);
+        show_transport_button(ui, seen, TransportIcon::Back, Action::FrameBack, None);
         let (icon, text) = if playing {
             (TransportIcon::Pause, words::PAUSE)
         } else {
             (TransportIcon::Play, words::PLAY)
         };
-        show_transport_button(ui, seen, out, icon, Action::Play, Some(text));
-        show_transport_button(ui, seen, out, TransportIcon::Forward, Action::FrameForward, None);
-        show_transport_button(ui, seen, out, TransportIcon::End, Action::ToEnd, None);
+        show_transport_button(ui, seen, icon, Action::Play, Some(text));
+        show_transport_button(ui, seen, TransportIcon::Forward, Action::FrameForward, None);
+        show_transport_button(ui, seen, TransportIcon::End, Action::ToEnd, None);
         let looping = TransportIcon::Loop(player.looping);
-        show_transport_button(ui, seen, out, looping, Action::Loop, Some(words::LOOP));
-        show_speed_menu(ui, seen, out);
+        show_transport_button(ui, seen, looping, Action::Loop, Some(words::LOOP));
+        show_speed_menu(ui, seen);
         let rate = playback_frame_rate(seen);
         let (now, all) = (
             time_text(player.player_playhead()),
             time_text(player.whole.span_end_instant()),
         );
-        go_to(ui, seen, out, &now);
+        go_to(ui, seen, &now);
         if !low || ui.available_size_before_wrap().x > 170.0 {
             ui.label(RichText::new(format!("/ {all}")).monospace().weak());
         }
@@ -68,12 +62,12 @@ pub(super) fn show_transport_bar(
             };
             ui.label(RichText::new(text).small().weak());
         }
-        more(ui, out);
+        more(ui);
     });
 }
 
 /// Shows the time of the playhead; a click lets the user type another.
-fn go_to(ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox, now: &str) {
+fn go_to(ui: &mut Ui, seen: &PaneInput<'_>, now: &str) {
     let time = RichText::new(now).monospace().strong();
     let button = ui.add(Button::new(time).frame_when_inactive(false));
     let name = seen.say_text(Action::GoToTime.action_row().name);
@@ -83,7 +77,7 @@ fn go_to(ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox, now: &str) 
     });
     let keys = seen.keys.action_keys_text(Action::GoToTime);
     if button.on_hover_text(format!("{name} ({keys})")).clicked() {
-        out.send_command(WindowCommand::Do(Action::GoToTime));
+        seen.send_command(WindowCommand::Do(Action::GoToTime));
     }
 }
 
@@ -128,7 +122,7 @@ fn annotation_tick_shares(starts: &[i64], ends: &[i64], whole: TimeSpan, pixels:
 }
 
 /// Shows the bar: annotations of the chosen tier or of the glosses, the selected time, the playhead.
-fn show_playback_bar(ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+fn show_playback_bar(ui: &mut Ui, seen: &PaneInput<'_>) {
     let player = seen.shown.on_stage();
     let size = vec2(ui.available_width(), TRANSPORT_BAR_HEIGHT_POINTS);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
@@ -145,7 +139,7 @@ fn show_playback_bar(ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox)
     };
     let pressed = response.is_pointer_button_down_on() || response.clicked();
     if let Some(at) = response.interact_pointer_pos().filter(|_| pressed) {
-        out.send_command(WindowCommand::Cue(time(at.x)));
+        seen.send_command(WindowCommand::Cue(time(at.x)));
     }
     let colours = seen.pane_colours();
     let painter = ui.painter_at(rect);
@@ -186,7 +180,7 @@ fn show_playback_bar(ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox)
     if response.has_focus() {
         let stroke = Stroke::new(1.5, colours.accent);
         painter.rect_stroke(rect, 4.0, stroke, StrokeKind::Inside);
-        handle_playback_keys(ui, &response, out);
+        handle_playback_keys(ui, &response, seen.out);
     }
     let hovered = response.hover_pos().filter(|_| !response.dragged());
     if let Some(at) = hovered.filter(|_| player.whole.span_micros() > 0) {
@@ -203,7 +197,7 @@ fn show_playback_bar(ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox)
 }
 
 /// Moves by frames with the arrow keys while the bar has the focus.
-fn handle_playback_keys(ui: &Ui, response: &Response, out: &mut CommandOutbox) {
+fn handle_playback_keys(ui: &Ui, response: &Response, out: &CommandOutbox) {
     ui.memory_mut(|memory| {
         let filter = egui::EventFilter {
             horizontal_arrows: true,
@@ -254,7 +248,6 @@ enum TransportIcon {
 fn show_transport_button(
     ui: &mut Ui,
     seen: &PaneInput<'_>,
-    out: &mut CommandOutbox,
     icon: TransportIcon,
     action: Action,
     text: Option<InterfaceText>,
@@ -279,7 +272,7 @@ fn show_transport_button(
         format!("{name} ({keys})")
     };
     if response.on_hover_text(hint).clicked() {
-        out.send_command(WindowCommand::Do(action));
+        seen.send_command(WindowCommand::Do(action));
     }
 }
 
@@ -339,7 +332,7 @@ fn draw_transport_icon(painter: &Painter, icon: TransportIcon, at: egui::Pos2, c
     }
 }
 
-fn show_speed_menu(ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+fn show_speed_menu(ui: &mut Ui, seen: &PaneInput<'_>) {
     let player = seen.shown.on_stage();
     let now = player.speed;
     let shuttle = player.playback_direction();
@@ -352,7 +345,7 @@ fn show_speed_menu(ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
     let inner = combo.show_ui(ui, |ui| {
         for speed in PLAYBACK_SPEEDS {
             if ui.selectable_label(speed == now, format!("×{speed}")).clicked() {
-                out.send_command(WindowCommand::Speed(speed));
+                seen.send_command(WindowCommand::Speed(speed));
             }
         }
     });

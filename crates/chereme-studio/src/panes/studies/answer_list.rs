@@ -7,7 +7,7 @@ use eframe::egui::{Button, ScrollArea, Ui};
 
 use super::studies_draft::show_draft_text_line;
 use super::{SavedFile, SavedTo, StudiesPane, studies_data};
-use crate::command::{ChooserPurpose, CommandOutbox};
+use crate::command::ChooserPurpose;
 use crate::context::PaneInput;
 use crate::panes::{combo, list_row};
 use crate::words::{fill_text_braces, shell, studies_words as words};
@@ -47,18 +47,12 @@ impl StudyAnswersView {
 }
 
 /// Shows the answers, what can be done with them, and the table they are written to.
-pub(super) fn show_study_answers(
-    pane: &mut StudiesPane,
-    ui: &mut Ui,
-    seen: &PaneInput<'_>,
-    it: &StudyOverview,
-    out: &mut CommandOutbox,
-) {
+pub(super) fn show_study_answers(pane: &mut StudiesPane, ui: &mut Ui, seen: &PaneInput<'_>, it: &StudyOverview) {
     let list = &mut pane.forms.list;
     let generation = seen.snapshot.overview.generation;
     if list.of != Some(generation) && !seen.is_running(list.asking) {
         list.of = Some(generation);
-        list.asking = Some(out.request_work(studying::list_answers_job(it.plan.name.clone())));
+        list.asking = Some(seen.request_work(studying::list_answers_job(it.plan.name.clone())));
     }
     let Some(found) = list.found.clone().filter(|answers| !answers.participants.is_empty()) else {
         return;
@@ -89,13 +83,13 @@ pub(super) fn show_study_answers(
         .iter()
         .find(|participant| Some(&participant.code) == chosen.as_ref());
     if let Some(person) = person {
-        show_participant_summary(pane, ui, seen, person, &found.study, out);
+        show_participant_summary(pane, ui, seen, person, &found.study);
     }
     let list = &pane.forms.list;
     let values: [(&str, &dyn std::fmt::Display); 2] = [("n", &list.rows.len()), ("of", &found.rows.len())];
     ui.weak(fill_text_braces(seen.say_text(words::ANSWERS_SHOWN), &values));
     pane.show_clip_progress(ui, seen);
-    show_answer_rows(pane, ui, seen, it, &found, out);
+    show_answer_rows(pane, ui, seen, it, &found);
     let proposed = format!("{}-answers.csv", studies_data::file_stem(&it.plan.name));
     let file = SavedFile {
         name: words::ANSWERS_TABLE,
@@ -103,9 +97,9 @@ pub(super) fn show_study_answers(
         chooser: ChooserPurpose::AnswersTable,
     };
     let saved = &mut pane.forms.list.saved;
-    if let Some((to, force)) = saved.show_save_path(ui, seen, file, &proposed, out) {
+    if let Some((to, force)) = saved.show_save_path(ui, seen, file, &proposed) {
         let job = studying::write_answers(it.plan.name.clone(), to, force);
-        saved.saving = Some(out.request_work(job));
+        saved.saving = Some(seen.request_work(job));
         pane.clear_study_results();
     }
 }
@@ -117,7 +111,6 @@ fn show_participant_summary(
     seen: &PaneInput<'_>,
     it: &ParticipantSummary,
     study: &str,
-    out: &mut CommandOutbox,
 ) {
     let mut texts = Vec::new();
     let values: [(&str, &dyn std::fmt::Display); 3] = [
@@ -154,7 +147,7 @@ fn show_participant_summary(
     ui.horizontal_wrapped(|ui| {
         if ui.button(seen.say_text(words::FORGET_NOW)).clicked() {
             let job = studying::forget_participant_job(study.to_owned(), it.code.clone());
-            (list.forgetting, list.forget) = (Some(out.request_work(job)), None);
+            (list.forgetting, list.forget) = (Some(seen.request_work(job)), None);
         }
         if ui.button(seen.say_text(shell::CANCEL)).clicked() {
             list.forget = None;
@@ -169,7 +162,6 @@ fn show_answer_rows(
     seen: &PaneInput<'_>,
     study: &StudyOverview,
     found: &AnswerList,
-    out: &mut CommandOutbox,
 ) {
     let height = ui.spacing().interact_size.y * 1.9;
     let row_pitch = height + ui.spacing().item_spacing.y;
@@ -190,6 +182,6 @@ fn show_answer_rows(
             }
         });
     if let Some((name, clip)) = picked.filter(|pick| !pick.1.is_empty()) {
-        pane.show_clip(&name, &clip, out);
+        pane.show_clip(&name, &clip, seen.out);
     }
 }

@@ -183,11 +183,11 @@ impl StudyForms {
 }
 
 impl StudiesPane {
-    fn follow_study_list(&mut self, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn follow_study_list(&mut self, seen: &PaneInput<'_>) {
         let generation = seen.snapshot.overview.generation;
         if self.of != Some(generation) && !seen.is_running(self.listing) {
             self.of = Some(generation);
-            self.listing = Some(out.request_work(studying::list_studies_job()));
+            self.listing = Some(seen.request_work(studying::list_studies_job()));
         }
     }
 
@@ -241,7 +241,7 @@ impl StudiesPane {
     }
 
     /// Reads the file that was chosen or dropped for a form.
-    fn read_file(&mut self, out: &mut CommandOutbox) {
+    fn read_file(&mut self, out: &CommandOutbox) {
         if let Some((what, path)) = self.file.take() {
             self.wrong.clear();
             self.reading = Some((what, out.request_work(studying::read_study_file_job(path))));
@@ -270,7 +270,7 @@ impl StudiesPane {
     }
 
     /// Shows all studies, and the button that begins a new one.
-    fn show_study_list(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn show_study_list(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         let all = self.all.clone().unwrap_or_default();
         if all.is_empty() && self.all.is_some() {
             ui.label(seen.say_text(words::NONE));
@@ -308,7 +308,7 @@ impl StudiesPane {
             }
             let file = ui.add_enabled(open, Button::new(seen.say_text(words::PLAN_OF_FILE)));
             if file.on_hover_text(seen.say_text(words::PLAN_OF_FILE_TIP)).clicked() {
-                out.send_command(WindowCommand::Choose(ChooserPurpose::Plan));
+                seen.send_command(WindowCommand::Choose(ChooserPurpose::Plan));
             }
         });
     }
@@ -342,7 +342,7 @@ impl StudiesPane {
     }
 
     /// Shows the chosen study.
-    fn show_chosen_study(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, it: &StudyOverview, out: &mut CommandOutbox) {
+    fn show_chosen_study(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, it: &StudyOverview) {
         ui.separator();
         ui.horizontal_wrapped(|ui| {
             for (view, name) in STUDY_VIEWS {
@@ -350,14 +350,14 @@ impl StudiesPane {
             }
         });
         match self.view {
-            StudyView::Plan => self.show_study_plan(ui, seen, it, out),
-            StudyView::Questionnaire => questionnaire::show_questionnaire_form(self, ui, seen, it, out),
-            StudyView::Answers => studies_answers::show_answer_import(self, ui, seen, it, out),
-            StudyView::Report => studies_report::show_study_report(self, ui, seen, it, out),
+            StudyView::Plan => self.show_study_plan(ui, seen, it),
+            StudyView::Questionnaire => questionnaire::show_questionnaire_form(self, ui, seen, it),
+            StudyView::Answers => studies_answers::show_answer_import(self, ui, seen, it),
+            StudyView::Report => studies_report::show_study_report(self, ui, seen, it),
         }
     }
 
-    fn show_study_plan(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, it: &StudyOverview, out: &mut CommandOutbox) {
+    fn show_study_plan(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, it: &StudyOverview) {
         for question in &it.plan.questions {
             let answers = studies_data::describe_possible_answers(question);
             let values: [(&str, &dyn std::fmt::Display); 2] = [("name", &question.name), ("answers", &answers)];
@@ -380,7 +380,7 @@ impl StudiesPane {
                 .on_hover_text(seen.say_text(words::DELETE_TIP))
                 .on_disabled_hover_text(seen.say_text(shell::READ_ONLY_WHY));
             if delete.clicked() {
-                out.request_work(studying::delete_study_job(it.plan.name.clone()));
+                seen.request_work(studying::delete_study_job(it.plan.name.clone()));
             }
         });
         let about = match it.participants {
@@ -388,7 +388,7 @@ impl StudiesPane {
             _ => words::CHANGE_ANSWERED,
         };
         ui.weak(seen.say_text(about));
-        self.show_plan_trials(ui, seen, &it.plan, out);
+        self.show_plan_trials(ui, seen, &it.plan);
         let header = CollapsingHeader::new(seen.say_text(words::SAVE_PLAN)).id_salt("plan file");
         header.show(ui, |ui| {
             let proposed = format!("{}-plan.json", studies_data::file_stem(&it.plan.name));
@@ -398,9 +398,9 @@ impl StudiesPane {
                 chooser: ChooserPurpose::SavePlan,
             };
             let form = &mut self.forms.plan;
-            if let Some((to, force)) = form.show_save_path(ui, seen, file, &proposed, out) {
+            if let Some((to, force)) = form.show_save_path(ui, seen, file, &proposed) {
                 let job = studying::write_plan(it.plan.name.clone(), to, force);
-                form.saving = Some(out.request_work(job));
+                form.saving = Some(seen.request_work(job));
                 self.clear_study_results();
             }
         });
@@ -434,38 +434,32 @@ impl StudiesPane {
 }
 
 /// Shows the progress of running work with a button that stops it; returns whether it runs.
-fn progress(
-    ui: &mut Ui,
-    seen: &PaneInput<'_>,
-    work: Option<WorkId>,
-    task: InterfaceText,
-    out: &mut CommandOutbox,
-) -> bool {
+fn progress(ui: &mut Ui, seen: &PaneInput<'_>, work: Option<WorkId>, task: InterfaceText) -> bool {
     if !seen.is_running(work) {
         return false;
     }
     ui.horizontal_wrapped(|ui| {
         ui.label(seen.say_text(task));
-        show_running_work(ui, seen, work, out);
+        show_running_work(ui, seen, work);
     });
     true
 }
 
 impl PaneInterface for StudiesPane {
-    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
-        self.follow_study_list(seen, out);
-        self.give_clip(out);
-        self.read_file(out);
+    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
+        self.follow_study_list(seen);
+        self.give_clip(seen.out);
+        self.read_file(seen.out);
         let area = ScrollArea::vertical().id_salt("studies").auto_shrink(false);
         area.show(ui, |ui| {
             if self.draft.is_some() {
-                studies_draft::show_study_draft(self, ui, seen, out);
+                studies_draft::show_study_draft(self, ui, seen);
                 reach_focus(ui);
                 return;
             }
-            self.show_study_list(ui, seen, out);
+            self.show_study_list(ui, seen);
             if let Some(it) = self.chosen_study() {
-                self.show_chosen_study(ui, seen, &it, out);
+                self.show_chosen_study(ui, seen, &it);
             }
             let of_study = self.chosen_study().is_some() && self.wrong.is_empty();
             self.show_study_faults(

@@ -6,7 +6,7 @@ use chereme_corpus::study::{BuiltQuestionnaire, QuestionnaireOptions, StudyOverv
 use eframe::egui::{Button, DragValue, Ui};
 
 use super::{PathField, StudiesPane, progress, studies_data};
-use crate::command::{ChooserPurpose, CommandOutbox};
+use crate::command::ChooserPurpose;
 use crate::context::PaneInput;
 use crate::panes::import::PathCompletions;
 use crate::words::{fill_text_braces, studies_words as words};
@@ -24,13 +24,7 @@ pub(super) struct QuestionnaireForm {
 }
 
 /// Shows the form, the progress of building, and the result.
-pub(super) fn show_questionnaire_form(
-    pane: &mut StudiesPane,
-    ui: &mut Ui,
-    seen: &PaneInput<'_>,
-    it: &StudyOverview,
-    out: &mut CommandOutbox,
-) {
+pub(super) fn show_questionnaire_form(pane: &mut StudiesPane, ui: &mut Ui, seen: &PaneInput<'_>, it: &StudyOverview) {
     let form = &mut pane.forms.questionnaire;
     if form.options.is_none() && form.to.is_empty() {
         let folder = format!("{}-questionnaire", studies_data::file_stem(&it.plan.name));
@@ -42,7 +36,7 @@ pub(super) fn show_questionnaire_form(
         hint: "",
         chooser: ChooserPurpose::Questionnaire,
     };
-    field.show_path_line(ui, seen, &mut form.paths, &mut form.to, out);
+    field.show_path_line(ui, seen, &mut form.paths, &mut form.to);
     ui.horizontal_wrapped(|ui| {
         let label = ui.weak(seen.say_text(words::HEIGHT));
         ui.add(DragValue::new(&mut options.height).range(64..=1080))
@@ -53,14 +47,14 @@ pub(super) fn show_questionnaire_form(
         ui.checkbox(&mut options.force, seen.say_text(words::REPLACE));
     });
     let options = *options;
-    if !progress(ui, seen, form.building, words::TASK_BUILD, out) {
+    if !progress(ui, seen, form.building, words::TASK_BUILD) {
         let ready = !form.to.trim().is_empty();
         let build_button = ui.add_enabled(ready, Button::new(seen.say_text(words::BUILD)));
         let build = build_button.on_disabled_hover_text(seen.say_text(words::NEEDS_FOLDER));
         if build.clicked() {
             let to = PathBuf::from(form.to.trim());
             let job = studying::build_questionnaire_job(it.plan.name.clone(), to, options);
-            (form.building, form.built) = (Some(out.request_work(job)), None);
+            (form.building, form.built) = (Some(seen.request_work(job)), None);
             pane.clear_study_results();
         }
     }
@@ -88,6 +82,6 @@ pub(super) fn show_questionnaire_form(
     }
     let open = ui.button(seen.say_text(words::OPEN_PAGE));
     if open.on_hover_text(seen.say_text(words::ADDRESS_TIP)).clicked() {
-        pane.opening = Some(out.request_work(studying::open_page_job(built.page.clone())));
+        pane.opening = Some(seen.request_work(studying::open_page_job(built.page.clone())));
     }
 }

@@ -8,7 +8,7 @@ use eframe::egui::{Button, CollapsingHeader, Grid, ScrollArea, Ui};
 
 use super::studies_draft::{show_remove_line_button, text_block};
 use super::{PathField, StudiesPane, answer_list, progress};
-use crate::command::{ChooserPurpose, CommandOutbox, WindowCommand};
+use crate::command::{ChooserPurpose, WindowCommand};
 use crate::context::PaneInput;
 use crate::panes::import::PathCompletions;
 use crate::words::{fill_text_braces, shell, studies_words as words, translate_library_message};
@@ -73,13 +73,7 @@ impl AnswerImportForm {
 }
 
 /// Shows the files, the button that imports them, and the report.
-pub(super) fn show_answer_import(
-    pane: &mut StudiesPane,
-    ui: &mut Ui,
-    seen: &PaneInput<'_>,
-    it: &StudyOverview,
-    out: &mut CommandOutbox,
-) {
+pub(super) fn show_answer_import(pane: &mut StudiesPane, ui: &mut Ui, seen: &PaneInput<'_>, it: &StudyOverview) {
     let values: [(&str, &dyn std::fmt::Display); 3] = [
         ("people", &it.participants),
         ("finished", &it.finished),
@@ -92,7 +86,7 @@ pub(super) fn show_answer_import(
         hint: seen.say_text(words::ANSWERS_HINT),
         chooser: ChooserPurpose::Answers,
     };
-    field.show_path_line(ui, seen, &mut form.paths, &mut form.path, out);
+    field.show_path_line(ui, seen, &mut form.paths, &mut form.path);
     if form.path.trim().is_empty() {
         for path in form.several.iter().take(8) {
             ui.small(path.display().to_string());
@@ -106,7 +100,7 @@ pub(super) fn show_answer_import(
         text_block(ui, seen.say_text(words::MAP_HEADER), titles, &mut form.map);
         ui.horizontal_wrapped(|ui| {
             if ui.button(seen.say_text(words::CHOOSE_MAP)).clicked() {
-                out.send_command(WindowCommand::Choose(ChooserPurpose::Columns));
+                seen.send_command(WindowCommand::Choose(ChooserPurpose::Columns));
             }
             if !form.map.is_empty() && show_remove_line_button(ui, seen, seen.say_text(words::MAP_HEADER)) {
                 form.map.clear();
@@ -117,7 +111,7 @@ pub(super) fn show_answer_import(
             }
         });
     });
-    if !progress(ui, seen, form.importing, words::TASK_ANSWERS, out) {
+    if !progress(ui, seen, form.importing, words::TASK_ANSWERS) {
         let files = form.answer_file_paths();
         let locked = seen.snapshot.is_read_only();
         let ready = !files.is_empty() && !locked;
@@ -136,7 +130,7 @@ pub(super) fn show_answer_import(
         });
         if let Some(dry_run) = wanted {
             let job = studying::import_answers_job(it.plan.name.clone(), files, form.answer_import_options(dry_run));
-            (form.importing, form.report) = (Some(out.request_work(job)), None);
+            (form.importing, form.report) = (Some(seen.request_work(job)), None);
             form.tried = dry_run;
             pane.clear_study_results();
         }
@@ -147,7 +141,7 @@ pub(super) fn show_answer_import(
         }
         imported(ui, seen, report);
     }
-    answer_list::show_study_answers(pane, ui, seen, it, out);
+    answer_list::show_study_answers(pane, ui, seen, it);
 }
 
 /// Shows the use of each column of a table.

@@ -5,7 +5,7 @@ use eframe::egui::{Button, CollapsingHeader, DragValue, Response, Role, ScrollAr
 
 use super::drafted::StudyDraft;
 use super::{StudiesPane, StudyFault, hypotheses, progress, wording};
-use crate::command::{ChooserPurpose, CommandOutbox, WindowCommand};
+use crate::command::{ChooserPurpose, WindowCommand};
 use crate::context::PaneInput;
 use crate::panes::{carry, combo, recombine};
 use crate::script::script_edit;
@@ -16,7 +16,7 @@ use crate::work::studying;
 const TABLE_HEIGHT: f32 = 130.0;
 
 /// Shows the form.
-pub(super) fn show_study_draft(pane: &mut StudiesPane, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+pub(super) fn show_study_draft(pane: &mut StudiesPane, ui: &mut Ui, seen: &PaneInput<'_>) {
     let Some(mut draft) = pane.draft.take() else {
         return;
     };
@@ -27,7 +27,7 @@ pub(super) fn show_study_draft(pane: &mut StudiesPane, ui: &mut Ui, seen: &PaneI
     pane.planned.plan_changed_draft(&draft);
     show_draft_head(ui, seen, &mut draft, come);
     show_draft_conditions(ui, seen, &mut draft);
-    show_trial_table(ui, seen, &mut draft, out);
+    show_trial_table(ui, seen, &mut draft);
     show_draft_questions(ui, seen, &mut draft, pane.planned.plan.as_ref());
     design(ui, seen, &mut draft);
     if let Some(plan) = &pane.planned.plan {
@@ -41,7 +41,7 @@ pub(super) fn show_study_draft(pane: &mut StudiesPane, ui: &mut Ui, seen: &PaneI
     }
     ui.separator();
     pane.planned.plan_changed_draft(&draft);
-    show_store_plan_button(pane, ui, seen, &draft, out);
+    show_store_plan_button(pane, ui, seen, &draft);
     if draft != before {
         pane.wrong.clear();
     }
@@ -54,7 +54,7 @@ pub(super) fn show_study_draft(pane: &mut StudiesPane, ui: &mut Ui, seen: &PaneI
         }
     }
     if let Some(plan) = pane.planned.plan.take() {
-        pane.show_plan_trials(ui, seen, &plan, out);
+        pane.show_plan_trials(ui, seen, &plan);
         pane.planned.plan = Some(plan);
     }
     match back {
@@ -84,13 +84,7 @@ fn show_study_change_notice(ui: &mut Ui, seen: &PaneInput<'_>, draft: &StudyDraf
 }
 
 /// Shows the button that stores the plan.
-fn show_store_plan_button(
-    pane: &mut StudiesPane,
-    ui: &mut Ui,
-    seen: &PaneInput<'_>,
-    draft: &StudyDraft,
-    out: &mut CommandOutbox,
-) {
+fn show_store_plan_button(pane: &mut StudiesPane, ui: &mut Ui, seen: &PaneInput<'_>, draft: &StudyDraft) {
     let named = !draft.name.trim().is_empty();
     let answered = draft.changes.as_ref().filter(|changes| changes.people > 0);
     let free = answered.is_none_or(|changes| changes.name != draft.name.trim());
@@ -114,13 +108,13 @@ fn show_store_plan_button(
             && let Some(plan) = pane.planned.faultless_plan()
         {
             let job = studying::store_study_plan_job(plan.clone(), draft.distance_from.clone());
-            pane.planning = Some(out.request_work(job));
+            pane.planning = Some(seen.request_work(job));
             pane.wrong.clear();
         }
         if let Some(why) = why.filter(|_| !locked) {
             ui.weak(seen.say_text(why));
         }
-        progress(ui, seen, pane.planning, words::STORING, out);
+        progress(ui, seen, pane.planning, words::STORING);
     });
 }
 
@@ -201,7 +195,7 @@ fn show_draft_conditions(ui: &mut Ui, seen: &PaneInput<'_>, draft: &mut StudyDra
 }
 
 /// Shows the table of trials, which is typed, pasted, chosen or dropped.
-fn show_trial_table(ui: &mut Ui, seen: &PaneInput<'_>, draft: &mut StudyDraft, out: &mut CommandOutbox) {
+fn show_trial_table(ui: &mut Ui, seen: &PaneInput<'_>, draft: &mut StudyDraft) {
     if !draft.others.is_empty() {
         ui.horizontal_wrapped(|ui| {
             let kept = fill_text_braces(seen.say_text(words::OTHERS), &[("n", &draft.others.len())]);
@@ -223,7 +217,7 @@ fn show_trial_table(ui: &mut Ui, seen: &PaneInput<'_>, draft: &mut StudyDraft, o
         );
         ui.horizontal_wrapped(|ui| {
             if ui.button(seen.say_text(words::CHOOSE_TABLE)).clicked() {
-                out.send_command(WindowCommand::Choose(ChooserPurpose::Trials));
+                seen.send_command(WindowCommand::Choose(ChooserPurpose::Trials));
             }
             let filled = !draft.table.is_empty();
             if filled && show_remove_line_button(ui, seen, seen.say_text(words::TABLE_OF_TRIALS)) {

@@ -8,7 +8,7 @@ use chereme_corpus::study::report::StudyReport;
 use eframe::egui::{Button, Ui};
 
 use super::{PathField, StudiesPane, progress, studies_data, studies_figures};
-use crate::command::{ChooserPurpose, CommandOutbox};
+use crate::command::ChooserPurpose;
 use crate::context::PaneInput;
 use crate::panes::import::PathCompletions;
 use crate::words::{fill_text_braces, studies_words as words};
@@ -34,20 +34,14 @@ pub(super) struct ShownStudyReport {
 }
 
 /// Shows the figures, and the buttons that write and open the page.
-pub(super) fn show_study_report(
-    pane: &mut StudiesPane,
-    ui: &mut Ui,
-    seen: &PaneInput<'_>,
-    it: &StudyOverview,
-    out: &mut CommandOutbox,
-) {
+pub(super) fn show_study_report(pane: &mut StudiesPane, ui: &mut Ui, seen: &PaneInput<'_>, it: &StudyOverview) {
     let shown = &mut pane.forms.report;
     let generation = seen.snapshot.overview.generation;
     if shown.of != Some(generation) && !seen.is_running(shown.making) {
         shown.of = Some(generation);
-        shown.making = Some(out.request_work(studying::study_report_job(it.plan.name.clone())));
+        shown.making = Some(seen.request_work(studying::study_report_job(it.plan.name.clone())));
     }
-    progress(ui, seen, shown.making, words::TASK_REPORT, out);
+    progress(ui, seen, shown.making, words::TASK_REPORT);
     let Some(report) = shown.found.clone() else {
         return;
     };
@@ -62,7 +56,7 @@ pub(super) fn show_study_report(
         hint: seen.say_text(words::REPORT_HINT),
         chooser: ChooserPurpose::Report,
     };
-    field.show_path_line(ui, seen, &mut shown.paths, &mut shown.to, out);
+    field.show_path_line(ui, seen, &mut shown.paths, &mut shown.to);
     let mut wanted = None;
     ui.horizontal_wrapped(|ui| {
         let ready = !shown.to.trim().is_empty() && !seen.is_running(shown.saving);
@@ -82,13 +76,13 @@ pub(super) fn show_study_report(
         let to = with_ending(shown.to.trim());
         let force = shown.own.as_ref() == Some(&to);
         let job = studying::write_report(report, to, force, seen.language);
-        (shown.saving, shown.opens) = (Some(out.request_work(job)), opens);
+        (shown.saving, shown.opens) = (Some(seen.request_work(job)), opens);
         pane.clear_study_results();
         return;
     }
     if let Some(path) = shown.saved.take() {
         if std::mem::take(&mut shown.opens) {
-            pane.opening = Some(out.request_work(studying::open_page_job(path.clone())));
+            pane.opening = Some(seen.request_work(studying::open_page_job(path.clone())));
         }
         shown.own = Some(path);
     }

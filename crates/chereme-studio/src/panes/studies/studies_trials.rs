@@ -34,7 +34,7 @@ impl RequestedTrialClip {
 
 impl StudiesPane {
     /// Asks for the clip of a trial, which is then shown on the stage.
-    pub(super) fn show_clip(&mut self, name: &str, text: &str, out: &mut CommandOutbox) {
+    pub(super) fn show_clip(&mut self, name: &str, text: &str, out: &CommandOutbox) {
         if let Some(old) = self.clip.making.take() {
             out.send_command(WindowCommand::Stop(old));
         }
@@ -47,7 +47,7 @@ impl StudiesPane {
     }
 
     /// Shows the clip on the stage once it is made.
-    pub(super) fn give_clip(&mut self, out: &mut CommandOutbox) {
+    pub(super) fn give_clip(&mut self, out: &CommandOutbox) {
         let Some((made, (name, recipe))) = self.clip.made.take().zip(self.clip.of.clone()) else {
             return;
         };
@@ -76,13 +76,7 @@ impl StudiesPane {
     }
 
     /// Shows the trials of a plan; a click shows the clip of one on the stage.
-    pub(super) fn show_plan_trials(
-        &mut self,
-        ui: &mut Ui,
-        seen: &PaneInput<'_>,
-        plan: &StudyPlan,
-        out: &mut CommandOutbox,
-    ) {
+    pub(super) fn show_plan_trials(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, plan: &StudyPlan) {
         let rows = studies_data::trial_rows_from_plan(plan, seen.language);
         ui.weak(fill_text_braces(seen.say_text(words::TRIALS), &[("n", &rows.len())]));
         self.show_clip_progress(ui, seen);
@@ -103,7 +97,7 @@ impl StudiesPane {
                 }
             });
         if let Some(row) = picked {
-            self.show_clip(&row.name, &row.clip, out);
+            self.show_clip(&row.name, &row.clip, seen.out);
         }
     }
 }

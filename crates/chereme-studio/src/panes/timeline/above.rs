@@ -97,6 +97,6 @@ impl TimelineDrawing<'_, '_> {
         let raw_x = lane.left() + self.window.time_to_points(span.0 as f64);
         let x = raw_x.min(lane.right() - 40.0).max(lane.left());
         let below = Rect::from_x_y_ranges(x..=x + 1.0, y);
-        editor::show_value_field(self.timeline, ui, &scene, below, self.out);
+        editor::show_value_field(self.timeline, ui, &scene, below);
     }
 }

@@ -8,7 +8,7 @@ use eframe::egui::{Button, Color32, ScrollArea, TextStyle, Ui};
 use super::timeline_edit::TimelineScene;
 use super::timeline_rows::{build_timeline_rows, hidden_count};
 use crate::action::Action;
-use crate::command::{CommandOutbox, WindowCommand};
+use crate::command::WindowCommand;
 use crate::context::PaneInput;
 use crate::settings::timeline_settings::TimelineSettings;
 use crate::words::{InterfaceText, fill_text_braces, timeline as words};
@@ -37,7 +37,7 @@ pub(crate) fn mode_name(settings: &TimelineSettings) -> InterfaceText {
     on.map_or(words::NORMAL, |(_, text)| *text)
 }
 
-pub(super) fn show_timeline_bar(ui: &mut Ui, scene: &TimelineScene<'_>, out: &mut CommandOutbox) {
+pub(super) fn show_timeline_bar(ui: &mut Ui, scene: &TimelineScene<'_>) {
     let seen = scene.seen;
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = TIMELINE_TOOL_GAP_POINTS;
@@ -46,14 +46,14 @@ pub(super) fn show_timeline_bar(ui: &mut Ui, scene: &TimelineScene<'_>, out: &mu
         // In a narrow window each group of switches is a menu.
         if spare >= 0.0 {
             for (action, text) in TIMELINE_MODE_ACTIONS {
-                show_tool_switch(ui, seen, action, text, out);
+                show_tool_switch(ui, seen, action, text);
             }
             ui.separator();
             if spare >= tool_button_width(ui, seen.say_text(words::SNAPS_TO)) {
                 ui.weak(seen.say_text(words::SNAPS_TO));
             }
             for (action, text) in SNAP_MODE_ACTIONS {
-                show_tool_switch(ui, seen, action, text, out);
+                show_tool_switch(ui, seen, action, text);
             }
             ui.separator();
         } else {
@@ -62,14 +62,13 @@ pub(super) fn show_timeline_bar(ui: &mut Ui, scene: &TimelineScene<'_>, out: &mu
                 seen,
                 seen.say_text(mode_name(&seen.settings.timeline)),
                 &TIMELINE_MODE_ACTIONS,
-                out,
             );
-            show_tool_menu(ui, seen, seen.say_text(words::SNAP), &SNAP_MODE_ACTIONS, out);
+            show_tool_menu(ui, seen, seen.say_text(words::SNAP), &SNAP_MODE_ACTIONS);
         }
         let mut lanes = vec![(Action::Overview, words::LANES)];
         lanes.extend(super::timeline_lanes::CURVE_LANES.map(|(_, action, text)| (action, text)));
-        show_tool_menu(ui, seen, seen.say_text(words::LANES), &lanes, out);
-        show_tiers_menu(ui, scene, tiers_title, out);
+        show_tool_menu(ui, seen, seen.say_text(words::LANES), &lanes);
+        show_tiers_menu(ui, scene, tiers_title);
         ui.spacing_mut().item_spacing.x = 8.0;
         let chosen = seen.shown.annotations.len();
         if chosen > 1 {
@@ -100,30 +99,24 @@ fn tool_button_width(ui: &Ui, text: &str) -> f32 {
     galley.size().x + 2.0 * ui.spacing().button_padding.x + TIMELINE_TOOL_GAP_POINTS
 }
 
-fn show_tool_switch(ui: &mut Ui, seen: &PaneInput<'_>, action: Action, text: InterfaceText, out: &mut CommandOutbox) {
+fn show_tool_switch(ui: &mut Ui, seen: &PaneInput<'_>, action: Action, text: InterfaceText) {
     let on = seen.settings.timeline.is_on(action);
     let button = ui.add(Button::selectable(on, seen.say_text(text)));
     let keys = seen.keys.action_keys_text(action);
     let about = format!("{}  {keys}", seen.say_text(action.action_row().name));
     if button.on_hover_text(about).clicked() {
-        out.send_command(WindowCommand::Do(action));
+        seen.send_command(WindowCommand::Do(action));
     }
 }
 
-fn show_tool_menu(
-    ui: &mut Ui,
-    seen: &PaneInput<'_>,
-    title: &str,
-    rows: &[(Action, InterfaceText)],
-    out: &mut CommandOutbox,
-) {
+fn show_tool_menu(ui: &mut Ui, seen: &PaneInput<'_>, title: &str, rows: &[(Action, InterfaceText)]) {
     ui.menu_button(title, |ui| {
         for (action, _) in rows {
             let on = seen.settings.timeline.is_on(*action);
             let button = Button::selectable(on, seen.say_text(action.action_row().name))
                 .shortcut_text(seen.keys.action_keys_text(*action));
             if ui.add(button).clicked() {
-                out.send_command(WindowCommand::Do(*action));
+                seen.send_command(WindowCommand::Do(*action));
             }
         }
     });
@@ -142,24 +135,24 @@ fn tiers_title(scene: &TimelineScene<'_>) -> String {
     }
 }
 
-fn show_tiers_menu(ui: &mut Ui, scene: &TimelineScene<'_>, title: String, out: &mut CommandOutbox) {
+fn show_tiers_menu(ui: &mut Ui, scene: &TimelineScene<'_>, title: String) {
     let seen = scene.seen;
     let hidden = hidden(scene);
     ui.menu_button(title, |ui| {
-        show_menu_actions(ui, seen, &[Action::AddTier, Action::UsualTiers], out);
-        show_copy_tiers_menu(ui, scene, out);
-        show_menu_actions(ui, seen, &[Action::TiersByName, Action::TiersByKind], out);
+        show_menu_actions(ui, seen, &[Action::AddTier, Action::UsualTiers]);
+        show_copy_tiers_menu(ui, scene);
+        show_menu_actions(ui, seen, &[Action::TiersByName, Action::TiersByKind]);
         ui.separator();
-        show_menu_actions(ui, seen, &[Action::HideEmptyTiers], out);
+        show_menu_actions(ui, seen, &[Action::HideEmptyTiers]);
         if hidden > 0 {
-            show_menu_actions(ui, seen, &[Action::ShowTiers], out);
+            show_menu_actions(ui, seen, &[Action::ShowTiers]);
         }
-        show_tier_visibility(ui, scene, out);
+        show_tier_visibility(ui, scene);
     });
 }
 
 /// Shows a list of all tiers with their visibility, which can be changed.
-fn show_tier_visibility(ui: &mut Ui, scene: &TimelineScene<'_>, out: &mut CommandOutbox) {
+fn show_tier_visibility(ui: &mut Ui, scene: &TimelineScene<'_>) {
     let settings = &scene.seen.settings.timeline;
     let none = BTreeSet::new();
     let all = build_timeline_rows(&scene.contents.tiers, &none, &none);
@@ -174,7 +167,7 @@ fn show_tier_visibility(ui: &mut Ui, scene: &TimelineScene<'_>, out: &mut Comman
                     if ui.checkbox(&mut is_shown, name).changed() {
                         let mut settings = settings.clone();
                         super::timeline_view_settings::toggle_in_set(&mut settings.hidden, name.clone());
-                        super::timeline_view_settings::change_timeline_settings(scene.seen, out, settings);
+                        super::timeline_view_settings::change_timeline_settings(scene.seen, settings);
                     }
                 });
             }
@@ -182,7 +175,7 @@ fn show_tier_visibility(ui: &mut Ui, scene: &TimelineScene<'_>, out: &mut Comman
 }
 
 /// Shows the menu of recordings whose tiers can be copied to this one.
-pub(super) fn show_copy_tiers_menu(ui: &mut Ui, scene: &TimelineScene<'_>, out: &mut CommandOutbox) {
+pub(super) fn show_copy_tiers_menu(ui: &mut Ui, scene: &TimelineScene<'_>) {
     let here = scene.contents.recording.id;
     let recordings = &scene.seen.snapshot.overview.recordings;
     let mut others = recordings
@@ -203,7 +196,9 @@ pub(super) fn show_copy_tiers_menu(ui: &mut Ui, scene: &TimelineScene<'_>, out: 
                         .clicked()
                     {
                         let scheme = TierScheme::Like(RowName::Number(other.row.id));
-                        out.request_work(editing::add_tiers(RowName::Number(here), scheme));
+                        scene
+                            .seen
+                            .request_work(editing::add_tiers(RowName::Number(here), scheme));
                         ui.close();
                     }
                 }
@@ -212,7 +207,7 @@ pub(super) fn show_copy_tiers_menu(ui: &mut Ui, scene: &TimelineScene<'_>, out: 
 }
 
 /// Shows actions as the entries of a menu.
-pub(super) fn show_menu_actions(ui: &mut Ui, seen: &PaneInput<'_>, all: &[Action], out: &mut CommandOutbox) {
+pub(super) fn show_menu_actions(ui: &mut Ui, seen: &PaneInput<'_>, all: &[Action]) {
     for action in all {
         let button =
             Button::new(seen.say_text(action.action_row().name)).shortcut_text(seen.keys.action_keys_text(*action));
@@ -220,7 +215,7 @@ pub(super) fn show_menu_actions(ui: &mut Ui, seen: &PaneInput<'_>, all: &[Action
         let button = ui.add_enabled(!locked, button);
         let why = seen.say_text(crate::words::shell::READ_ONLY_WHY);
         if button.on_disabled_hover_text(why).clicked() {
-            out.send_command(WindowCommand::Do(*action));
+            seen.send_command(WindowCommand::Do(*action));
             ui.close();
         }
     }

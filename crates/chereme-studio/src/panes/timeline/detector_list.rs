@@ -6,7 +6,6 @@ use eframe::egui::{Button, Key, Label, Modifiers, Ui, vec2};
 use super::timeline_edit::TimelineScene;
 use super::timeline_parts::box_window;
 use super::{TimelinePane, proposals};
-use crate::command::CommandOutbox;
 use crate::words::{fill_text_braces, shell, timeline as words};
 use crate::work::analysis;
 
@@ -17,12 +16,7 @@ pub(super) struct ChooseDetector {
 }
 
 /// Shows the list, and runs the chosen detector.
-pub(super) fn show_detector_list(
-    timeline: &mut TimelinePane,
-    ui: &mut Ui,
-    scene: &TimelineScene<'_>,
-    out: &mut CommandOutbox,
-) {
+pub(super) fn show_detector_list(timeline: &mut TimelinePane, ui: &mut Ui, scene: &TimelineScene<'_>) {
     let Some(mut list) = timeline.boxes.detectors.take() else {
         return;
     };
@@ -67,7 +61,9 @@ pub(super) fn show_detector_list(
     match done.and_then(|at| ALL_DETECTORS.get(at)) {
         Some(detector) => {
             let options = DetectOptions::propose_with(detector.detector_name(), scope);
-            let work = out.request_work(analysis::run_detector_job(options, scene.seen.language));
+            let work = scene
+                .seen
+                .request_work(analysis::run_detector_job(options, scene.seen.language));
             timeline.asked.proposing = Some(work);
         }
         None if !closed => timeline.boxes.detectors = Some(list),

@@ -50,7 +50,7 @@ impl TimelineDrawing<'_, '_> {
         // Escape ends the gesture, but the button is still down: nothing may begin until it is released.
         if ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
             if let TimelineGesture::Select { .. } = gesture {
-                self.out.send_command(WindowCommand::Span(None));
+                self.seen.send_command(WindowCommand::Span(None));
             }
             self.follow_with(self.timeline.mark);
             gesture = TimelineGesture::Off;
@@ -136,7 +136,7 @@ impl TimelineDrawing<'_, '_> {
         let player = &self.seen.shown.player;
         // While something plays the playhead is not dragged away from it.
         if !player.is_playing() && player.player_playhead().instant_micros() != at {
-            self.out.send_seek(RecordingInstant::from_micros(at));
+            self.seen.send_seek(RecordingInstant::from_micros(at));
         }
     }
 
@@ -156,7 +156,7 @@ impl TimelineDrawing<'_, '_> {
         let (from, to) = (self.clamp_to_recording(from), self.clamp_to_recording(to));
         let micros = RecordingInstant::from_micros;
         let span = Some(TimeSpan::span_between(micros(from), micros(to))).filter(|span| !span.is_empty());
-        self.out.send_command(WindowCommand::Span(span));
+        self.seen.send_command(WindowCommand::Span(span));
         self.follow_with(to);
         GestureSight {
             times: span.map(|_| (from.min(to), from.max(to))),
@@ -306,7 +306,7 @@ impl TimelineDrawing<'_, '_> {
                 .max(first);
             all.extend(columns.ids[first..last].iter().copied());
         }
-        self.out.send_command(WindowCommand::Annotations(all));
+        self.seen.send_command(WindowCommand::Annotations(all));
         GestureSight {
             band: Some(band),
             ..GestureSight::default()
@@ -348,8 +348,8 @@ impl TimelineDrawing<'_, '_> {
                 ghosts,
                 ..ChangeFollowUp::default()
             };
-            self.out.send_command(WindowCommand::Tier(Some(to)));
-            self.timeline.request_annotation_changes(asked, then, self.out);
+            self.seen.send_command(WindowCommand::Tier(Some(to)));
+            self.timeline.request_annotation_changes(asked, then, self.seen.out);
             return;
         }
         let mut asked = Vec::new();
@@ -370,12 +370,12 @@ impl TimelineDrawing<'_, '_> {
         if let Some(own) = dragged_ghost {
             let micros = RecordingInstant::from_micros;
             let span = TimeSpan::span_between(micros(own.start), micros(own.end));
-            self.out.send_command(WindowCommand::Span(Some(span)));
+            self.seen.send_command(WindowCommand::Span(Some(span)));
         }
         let then = ChangeFollowUp {
             ghosts,
             ..ChangeFollowUp::default()
         };
-        self.timeline.request_annotation_changes(asked, then, self.out);
+        self.timeline.request_annotation_changes(asked, then, self.seen.out);
     }
 }

@@ -134,13 +134,7 @@ enum FieldKey {
 }
 
 /// Shows the field below `below`, and carries out its keys.
-pub(super) fn show_value_field(
-    timeline: &mut TimelinePane,
-    ui: &mut Ui,
-    scene: &TimelineScene<'_>,
-    below: Rect,
-    out: &mut CommandOutbox,
-) {
+pub(super) fn show_value_field(timeline: &mut TimelinePane, ui: &mut Ui, scene: &TimelineScene<'_>, below: Rect) {
     let Some(mut editing) = timeline.entry.take_open_editing() else {
         timeline.entry.left = false;
         return;
@@ -148,26 +142,26 @@ pub(super) fn show_value_field(
     // Another recording was opened while the value was typed: the value belongs to the former one.
     if editing.recording != scene.contents.recording.id {
         let text = editing.text.trim().to_owned();
-        timeline_edit::store_typed_value(timeline, editing, &text, out);
+        timeline_edit::store_typed_value(timeline, editing, &text, scene.seen.out);
         return;
     }
     // A restored draft may belong to an annotation that changed meanwhile.
     if editing.again && !editing.begun {
-        match find_place(editing, scene, out) {
+        match find_place(editing, scene) {
             Some(found) => editing = found,
             None => return,
         }
     }
     let Some(tier) = editing.editing_tier(scene) else {
         editing.again = true;
-        find_place(editing, scene, out);
+        find_place(editing, scene);
         return;
     };
     let choices = scene.scene_tier_values(tier);
     // The keyboard left the field: a valid value is stored, another waits in it.
     if std::mem::take(&mut timeline.entry.left) {
         if let Some(value) = choices.value_to_store(&editing.text, editing.marked) {
-            return carry_out_field_key(timeline, editing, tier, FieldKey::Keep(value, false), out);
+            return carry_out_field_key(timeline, editing, tier, FieldKey::Keep(value, false), scene.seen.out);
         }
         editing.aside = true;
     }
@@ -185,11 +179,11 @@ pub(super) fn show_value_field(
     let pictured = stored.filter(|stored| editing.pictures && timeline_edit::has_pictures(&stored.inventory));
     if let Some(stored) = pictured {
         let asked = show_value_pictures(timeline, ui, scene, &mut editing, &stored.inventory, offered, below);
-        timeline.entry.picker.inspect_requested_value(scene.seen, out);
-        return carry_out_field_key(timeline, editing, tier, asked, out);
+        timeline.entry.picker.inspect_requested_value(scene.seen);
+        return carry_out_field_key(timeline, editing, tier, asked, scene.seen.out);
     }
     let asked = draw_value_field(ui, scene, &mut editing, tier, offered, below);
-    carry_out_field_key(timeline, editing, tier, asked, out);
+    carry_out_field_key(timeline, editing, tier, asked, scene.seen.out);
 }
 
 /// Carries out a key of the field.
@@ -198,7 +192,7 @@ fn carry_out_field_key(
     editing: ValueEditing,
     tier: &TierContents,
     asked: FieldKey,
-    out: &mut CommandOutbox,
+    out: &CommandOutbox,
 ) {
     match asked {
         FieldKey::Nothing => timeline.entry.editing = Some(editing),
@@ -506,7 +500,7 @@ fn text_field(ui: &mut Ui, editing: &mut ValueEditing, label: &str) -> Response 
 
 /// Finds a place for typed text whose target was removed or stored meanwhile: the stored annotation, or a notice if
 /// there is no place for it. Returns `None` for text that was stored as typed.
-fn find_place(editing: ValueEditing, scene: &TimelineScene<'_>, out: &mut CommandOutbox) -> Option<ValueEditing> {
+fn find_place(editing: ValueEditing, scene: &TimelineScene<'_>) -> Option<ValueEditing> {
     if let EditTarget::New { tier, start, end } = editing.target
         && let Some(columns) = scene.tier_of(tier).map(|tier| &tier.annotations)
     {
@@ -536,7 +530,9 @@ fn find_place(editing: ValueEditing, scene: &TimelineScene<'_>, out: &mut Comman
     }
     if !editing.text.trim().is_empty() {
         let text = fill_text_braces(scene.seen.say_text(words::DRAFT_LOST), &[("text", &editing.text)]);
-        out.send_command(WindowCommand::Notify(text, words::DRAFT_LOST_REMEDY));
+        scene
+            .seen
+            .send_command(WindowCommand::Notify(text, words::DRAFT_LOST_REMEDY));
     }
     None
 }

@@ -168,7 +168,7 @@ impl TimelineDrawing<'_, '_> {
         let hit = self.under(contents, at, lane, origin.x);
         let id = hit.map(|(found, _)| tier.annotations.ids[found]);
         let is_chosen = id.is_some_and(|id| self.seen.shown.annotations.contains(&id));
-        self.out.send_command(WindowCommand::Tier(Some(tier.row.id)));
+        self.seen.send_command(WindowCommand::Tier(Some(tier.row.id)));
         if modifiers.shift {
             self.timeline.gesture = Some(TimelineGesture::Band {
                 from: origin,
@@ -189,12 +189,12 @@ impl TimelineDrawing<'_, '_> {
                 self.take_hold(contents, at, found, id, grip, from);
             }
             (None, _) if modifiers.alt => {
-                self.out.send_command(WindowCommand::Annotations(BTreeSet::new()));
+                self.seen.send_command(WindowCommand::Annotations(BTreeSet::new()));
                 let span = (from, from);
                 self.timeline.gesture = Some(TimelineGesture::Create { from, tier, span });
             }
             _ => {
-                self.out.send_command(WindowCommand::Annotations(BTreeSet::new()));
+                self.seen.send_command(WindowCommand::Annotations(BTreeSet::new()));
                 self.timeline.gesture = Some(TimelineGesture::Select { from });
             }
         }
@@ -206,7 +206,7 @@ impl TimelineDrawing<'_, '_> {
         // An edge belongs to one annotation, so that the others are deselected.
         if !chosen.contains(&id) || grip != DragGrip::Whole {
             chosen = BTreeSet::from([id]);
-            self.out.send_command(WindowCommand::Annotations(chosen.clone()));
+            self.seen.send_command(WindowCommand::Annotations(chosen.clone()));
         }
         let scene = TimelineScene::new(contents, self.seen);
         let held_annotations = scene.held_annotations(&chosen);
@@ -244,13 +244,13 @@ impl TimelineDrawing<'_, '_> {
             Some(under) if modifiers.command || modifiers.alt => {
                 let mut chosen = chosen.clone();
                 super::timeline_view_settings::toggle_in_set(&mut chosen, tier.annotations.ids[under]);
-                self.out.send_command(WindowCommand::Tier(Some(tier.row.id)));
-                self.out.send_command(WindowCommand::Annotations(chosen));
+                self.seen.send_command(WindowCommand::Tier(Some(tier.row.id)));
+                self.seen.send_command(WindowCommand::Annotations(chosen));
             }
             Some(under) if modifiers.shift => {
                 let all = select::annotation_range_to(tier, chosen, under);
-                self.out.send_command(WindowCommand::Tier(Some(tier.row.id)));
-                self.out.send_command(WindowCommand::Annotations(all));
+                self.seen.send_command(WindowCommand::Tier(Some(tier.row.id)));
+                self.seen.send_command(WindowCommand::Annotations(all));
             }
             None if modifiers.shift => {
                 // Without a selection, Shift selects from the playhead on.
@@ -260,18 +260,18 @@ impl TimelineDrawing<'_, '_> {
                     .shown
                     .span
                     .map_or(TimeSpan::span_between(from, here), |span| nearest_side(span, here));
-                self.out.send_command(WindowCommand::Annotations(BTreeSet::new()));
-                self.out
+                self.seen.send_command(WindowCommand::Annotations(BTreeSet::new()));
+                self.seen
                     .send_command(WindowCommand::Span(Some(span).filter(|span| !span.is_empty())));
             }
             Some(under) => {
-                select::select_tier_annotation(tier, under, self.out);
-                self.out.send_seek(here);
+                select::select_tier_annotation(tier, under, self.seen.out);
+                self.seen.send_seek(here);
             }
             None => {
-                self.out.send_command(WindowCommand::Tier(Some(tier.row.id)));
-                self.out.send_command(WindowCommand::Annotations(BTreeSet::new()));
-                self.out.send_seek(here);
+                self.seen.send_command(WindowCommand::Tier(Some(tier.row.id)));
+                self.seen.send_command(WindowCommand::Annotations(BTreeSet::new()));
+                self.seen.send_seek(here);
             }
         }
     }
@@ -309,7 +309,7 @@ impl TimelineDrawing<'_, '_> {
     }
 
     pub(super) fn show_gesture_hint(&mut self, text: InterfaceText) {
-        self.out.send_command(WindowCommand::Cannot(text));
+        self.seen.send_command(WindowCommand::Cannot(text));
     }
 }
 

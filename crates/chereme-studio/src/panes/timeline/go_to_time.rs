@@ -9,7 +9,7 @@ use super::TimelinePane;
 use super::timeline_data::time_text;
 use super::timeline_edit::TimelineScene;
 use super::timeline_parts::box_window;
-use crate::command::{CommandOutbox, WindowCommand};
+use crate::command::WindowCommand;
 use crate::script::script_edit;
 use crate::words::{fill_text_braces, shell, timeline as words};
 
@@ -63,12 +63,7 @@ fn parse_time_target(text: &str, now: i64, whole: TimeSpan, frames: Option<Recor
 }
 
 /// Shows the field, and moves the playhead to the entered time.
-pub(super) fn show_go_to_time(
-    timeline: &mut TimelinePane,
-    ui: &mut Ui,
-    scene: &TimelineScene<'_>,
-    out: &mut CommandOutbox,
-) {
+pub(super) fn show_go_to_time(timeline: &mut TimelinePane, ui: &mut Ui, scene: &TimelineScene<'_>) {
     let Some(mut shown) = timeline.boxes.go_box.take() else {
         return;
     };
@@ -127,7 +122,9 @@ pub(super) fn show_go_to_time(
             });
         });
     match to.filter(|_| go) {
-        Some(at) => out.send_command(WindowCommand::Cue(RecordingInstant::from_micros(at))),
+        Some(at) => scene
+            .seen
+            .send_command(WindowCommand::Cue(RecordingInstant::from_micros(at))),
         None if !drop => timeline.boxes.go_box = Some(shown),
         None => {}
     }

@@ -51,7 +51,7 @@ impl TimelineDrawing<'_, '_> {
         let sight = timeline_lanes::visible_window_span(&self.window, self.timeline.view.width, whole_span);
         self.timeline
             .curves
-            .request_curve_pieces(source, sight, scene.scene_playhead_micros(), self.out);
+            .request_curve_pieces(source, sight, scene.scene_playhead_micros(), self.seen.out);
         if settings.lanes.is_empty() {
             return;
         }
@@ -112,7 +112,7 @@ impl TimelineDrawing<'_, '_> {
         if response.clicked() {
             let mut settings = settings.clone();
             timeline_view_settings::toggle_in_set(&mut settings.folded_lanes, lane);
-            timeline_view_settings::change_timeline_settings(self.seen, self.out, settings);
+            timeline_view_settings::change_timeline_settings(self.seen, settings);
         }
         response.on_hover_text(label);
     }
@@ -193,7 +193,7 @@ impl TimelineDrawing<'_, '_> {
         if let Some(at) = response.interact_pointer_pos()
             && (response.dragged() || response.clicked())
         {
-            self.out.send_seek(self.instant_at_x(at.x - area.left()));
+            self.seen.send_seek(self.instant_at_x(at.x - area.left()));
         }
     }
 

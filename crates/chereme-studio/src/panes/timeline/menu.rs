@@ -53,14 +53,14 @@ impl TimelineDrawing<'_, '_> {
             let here = self.instant_at_x(pointer.x - lane.left());
             let under_index = timeline_data::annotation_index_at(&tier.annotations, here.instant_micros());
             let under = under_index.map(|under| tier.annotations.ids[under]);
-            self.out.send_command(WindowCommand::Tier(Some(tier.row.id)));
+            self.seen.send_command(WindowCommand::Tier(Some(tier.row.id)));
             match under {
                 // A menu on a selected annotation is for all selected ones.
                 Some(id) if self.seen.shown.annotations.contains(&id) => {}
-                Some(id) => self.out.send_command(WindowCommand::Annotations(BTreeSet::from([id]))),
+                Some(id) => self.seen.send_command(WindowCommand::Annotations(BTreeSet::from([id]))),
                 None => {
-                    self.out.send_command(WindowCommand::Annotations(BTreeSet::new()));
-                    self.out.send_seek(here);
+                    self.seen.send_command(WindowCommand::Annotations(BTreeSet::new()));
+                    self.seen.send_seek(here);
                 }
             }
         }
@@ -74,19 +74,19 @@ impl TimelineDrawing<'_, '_> {
     }
 
     fn show_annotation_menu_entries(&mut self, ui: &mut Ui) {
-        bar::show_menu_actions(ui, self.seen, &VALUE_MENU_ACTIONS, self.out);
+        bar::show_menu_actions(ui, self.seen, &VALUE_MENU_ACTIONS);
         ui.separator();
-        bar::show_menu_actions(ui, self.seen, &CLIPBOARD_MENU_ACTIONS, self.out);
+        bar::show_menu_actions(ui, self.seen, &CLIPBOARD_MENU_ACTIONS);
         ui.separator();
         for (title, part) in [
             (words::MENU_NEW, &NEW_ANNOTATION_ACTIONS[..]),
             (words::MENU_BESIDE, &SHAPE_MENU_ACTIONS),
         ] {
             ui.menu_button(self.seen.say_text(title), |ui| {
-                bar::show_menu_actions(ui, self.seen, part, self.out);
+                bar::show_menu_actions(ui, self.seen, part);
             });
         }
         ui.separator();
-        bar::show_menu_actions(ui, self.seen, &REMOVAL_MENU_ACTIONS, self.out);
+        bar::show_menu_actions(ui, self.seen, &REMOVAL_MENU_ACTIONS);
     }
 }

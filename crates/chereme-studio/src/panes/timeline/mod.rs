@@ -183,7 +183,7 @@ impl TimelinePane {
         &mut self,
         changes: Vec<chereme_corpus::AnnotationChange>,
         then: ChangeFollowUp,
-        out: &mut CommandOutbox,
+        out: &CommandOutbox,
     ) -> ActionOutcome {
         // The annotations are drawn at their future places until the snapshot shows them.
         self.asked.ghosts.extend_from_slice(&then.ghosts);
@@ -314,17 +314,12 @@ impl PaneInterface for TimelinePane {
         self.entry.left = self.entry.editing.is_some();
     }
 
-    fn ui(&mut self, ui: &mut eframe::egui::Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+    fn ui(&mut self, ui: &mut eframe::egui::Ui, seen: &PaneInput<'_>) {
         self.view.drawn = true;
-        timeline_ui::show_timeline_pane(self, ui, seen, out);
+        timeline_ui::show_timeline_pane(self, ui, seen);
     }
 
-    fn carry_out_pane_action(
-        &mut self,
-        action: Action,
-        seen: &PaneInput<'_>,
-        out: &mut CommandOutbox,
-    ) -> ActionOutcome {
+    fn carry_out_pane_action(&mut self, action: Action, seen: &PaneInput<'_>) -> ActionOutcome {
         match action {
             Action::ZoomIn => self.view.zoom_timeline_view(0.6, seen),
             Action::ZoomOut => self.view.zoom_timeline_view(1.0 / 0.6, seen),
@@ -333,7 +328,7 @@ impl PaneInterface for TimelinePane {
             Action::PageForward => self.view.page_timeline_view(0.9, seen),
             other => {
                 if let Some(settings) = seen.settings.timeline.settings_after_action(other) {
-                    timeline_view_settings::change_timeline_settings(seen, out, settings);
+                    timeline_view_settings::change_timeline_settings(seen, settings);
                     return ActionOutcome::Yes;
                 }
                 let Some(scene) = TimelineScene::scene_from_input(seen) else {
@@ -342,7 +337,7 @@ impl PaneInterface for TimelinePane {
                 if other == Action::GoToTime {
                     self.boxes.go_box = Some(go_to_time::GoBox::default());
                     if !self.view.drawn {
-                        out.send_command(WindowCommand::Do(Action::ShowTimeline));
+                        seen.send_command(WindowCommand::Do(Action::ShowTimeline));
                     }
                     return ActionOutcome::Yes;
                 }
@@ -355,10 +350,10 @@ impl PaneInterface for TimelinePane {
                     neighbours::carry_out_neighbour_action,
                 ]
                 .into_iter()
-                .map(|act| act(self, other, &scene, out))
+                .map(|act| act(self, other, &scene))
                 .find(|acted| *acted != ActionOutcome::No);
                 if self.is_timeline_box_open() && !self.view.drawn {
-                    out.send_command(WindowCommand::Do(Action::ShowTimeline));
+                    seen.send_command(WindowCommand::Do(Action::ShowTimeline));
                 }
                 return acted.unwrap_or(ActionOutcome::No);
             }

@@ -9,7 +9,6 @@ use super::tier_spans::{DragGrip, SpanItem};
 use super::timeline_edit::{self, TimelineScene};
 use super::{ChangeFollowUp, GhostAnnotation, TimelinePane};
 use crate::action::Action;
-use crate::command::CommandOutbox;
 use crate::panes::ActionOutcome;
 use crate::words::{shell, timeline as words};
 
@@ -18,15 +17,14 @@ pub(super) fn carry_out_neighbour_action(
     timeline: &mut TimelinePane,
     action: Action,
     scene: &TimelineScene<'_>,
-    out: &mut CommandOutbox,
 ) -> ActionOutcome {
     match action {
-        Action::NewBefore => new(timeline, scene, false, out),
-        Action::NewAfter => new(timeline, scene, true, out),
-        Action::NewBelow => new_below(timeline, scene, out),
-        Action::MergePrevious => merge_previous(timeline, scene, out),
-        Action::StartToNeighbour => stretch_to_neighbours(timeline, scene, DragGrip::Start, out),
-        Action::EndToNeighbour => stretch_to_neighbours(timeline, scene, DragGrip::End, out),
+        Action::NewBefore => new(timeline, scene, false),
+        Action::NewAfter => new(timeline, scene, true),
+        Action::NewBelow => new_below(timeline, scene),
+        Action::MergePrevious => merge_previous(timeline, scene),
+        Action::StartToNeighbour => stretch_to_neighbours(timeline, scene, DragGrip::Start),
+        Action::EndToNeighbour => stretch_to_neighbours(timeline, scene, DragGrip::End),
         _ => ActionOutcome::No,
     }
 }
@@ -42,7 +40,7 @@ fn find_lone_annotation<'a>(scene: &TimelineScene<'a>) -> Option<(&'a TierConten
 
 /// Begins a new annotation in the gap before or after the selected one, of the same length if there is room. On a tier
 /// without gaps it takes half of the selected one; on a tier of lists it is inserted beside it.
-fn new(timeline: &mut TimelinePane, scene: &TimelineScene<'_>, after: bool, out: &mut CommandOutbox) -> ActionOutcome {
+fn new(timeline: &mut TimelinePane, scene: &TimelineScene<'_>, after: bool) -> ActionOutcome {
     let Some((tier, at)) = find_lone_annotation(scene) else {
         return ActionOutcome::Cannot(shell::NEEDS_ANNOTATION);
     };
@@ -68,7 +66,7 @@ fn new(timeline: &mut TimelinePane, scene: &TimelineScene<'_>, after: bool, out:
                 edit: true,
                 ..ChangeFollowUp::default()
             };
-            timeline.request_annotation_changes(vec![add.into()], then, out)
+            timeline.request_annotation_changes(vec![add.into()], then, scene.seen.out)
         }
         _ => {
             let here = (columns.starts[at], columns.ends[at]);
@@ -126,7 +124,7 @@ fn free_span_beside(scene: &TimelineScene<'_>, tier: &TierContents, at: usize, a
 
 /// Adds an empty annotation on every tier below the selected annotations that has none there, down to the deepest
 /// tiers.
-fn new_below(timeline: &mut TimelinePane, scene: &TimelineScene<'_>, out: &mut CommandOutbox) -> ActionOutcome {
+fn new_below(timeline: &mut TimelinePane, scene: &TimelineScene<'_>) -> ActionOutcome {
     let mut chosen = scene.seen.shown.annotations.clone();
     if chosen.is_empty() {
         chosen.extend(timeline_edit::annotation_selected_alone(scene));
@@ -151,10 +149,10 @@ fn new_below(timeline: &mut TimelinePane, scene: &TimelineScene<'_>, out: &mut C
     let asked = adds
         .iter()
         .map(|(tier, (start, end))| requests::add_annotation_change(*tier, *start, *end, ""));
-    timeline.request_annotation_changes(asked.collect(), then, out)
+    timeline.request_annotation_changes(asked.collect(), then, scene.seen.out)
 }
 
-fn merge_previous(timeline: &mut TimelinePane, scene: &TimelineScene<'_>, out: &mut CommandOutbox) -> ActionOutcome {
+fn merge_previous(timeline: &mut TimelinePane, scene: &TimelineScene<'_>) -> ActionOutcome {
     let chosen = &scene.seen.shown.annotations;
     let first = match scene.edited_tier() {
         Some(tier) if chosen.len() > 1 => dragged::chosen_annotation_indices(tier, chosen)
@@ -178,18 +176,13 @@ fn merge_previous(timeline: &mut TimelinePane, scene: &TimelineScene<'_>, out: &
         ..ChangeFollowUp::default()
     };
     match requests::merge_annotation_changes(tier, &both, closed) {
-        Some(changes) => timeline.request_annotation_changes(changes, then, out),
+        Some(changes) => timeline.request_annotation_changes(changes, then, scene.seen.out),
         None => ActionOutcome::Cannot(words::NO_PREVIOUS),
     }
 }
 
 /// Moves the starts or ends of the selected annotations to their neighbours, or to the ends of their parents.
-fn stretch_to_neighbours(
-    timeline: &mut TimelinePane,
-    scene: &TimelineScene<'_>,
-    grip: DragGrip,
-    out: &mut CommandOutbox,
-) -> ActionOutcome {
+fn stretch_to_neighbours(timeline: &mut TimelinePane, scene: &TimelineScene<'_>, grip: DragGrip) -> ActionOutcome {
     let mut chosen = scene.seen.shown.annotations.clone();
     if chosen.is_empty() {
         chosen.extend(timeline_edit::annotation_selected_alone(scene));
@@ -229,5 +222,5 @@ fn stretch_to_neighbours(
         ghosts,
         ..ChangeFollowUp::default()
     };
-    timeline.request_annotation_changes(changed, then, out)
+    timeline.request_annotation_changes(changed, then, scene.seen.out)
 }

@@ -6,7 +6,6 @@ use eframe::egui::{Key, Label, Modifiers, ScrollArea, Ui, vec2};
 use super::timeline_edit::TimelineScene;
 use super::timeline_parts::box_window;
 use super::{TimelinePane, timeline_paste};
-use crate::command::CommandOutbox;
 use crate::words::{fill_text_braces, shell, timeline as words};
 
 /// The most lines in the list.
@@ -19,12 +18,7 @@ pub(super) struct PasteBox {
 }
 
 /// Shows the list, and pastes the other lines if the user agrees.
-pub(super) fn show_paste_box(
-    timeline: &mut TimelinePane,
-    ui: &mut Ui,
-    scene: &TimelineScene<'_>,
-    out: &mut CommandOutbox,
-) {
+pub(super) fn show_paste_box(timeline: &mut TimelinePane, ui: &mut Ui, scene: &TimelineScene<'_>) {
     let Some(shown) = timeline.boxes.paste_box.take() else {
         return;
     };
@@ -59,7 +53,7 @@ pub(super) fn show_paste_box(
             });
         });
     if keep && !plan.adds.is_empty() {
-        timeline_paste::add_pasted_annotations(timeline, &plan.adds, out);
+        timeline_paste::add_pasted_annotations(timeline, &plan.adds, scene.seen.out);
     } else if !drop && !keep {
         timeline.boxes.paste_box = Some(shown);
     }

@@ -36,7 +36,6 @@ pub(super) fn carry_out_proposal_action(
     timeline: &mut TimelinePane,
     action: Action,
     scene: &TimelineScene<'_>,
-    out: &mut CommandOutbox,
 ) -> ActionOutcome {
     match action {
         Action::Propose => {
@@ -44,7 +43,7 @@ pub(super) fn carry_out_proposal_action(
                 components: ProposalResult::READABLE_COMPONENTS.to_vec(),
                 scope: current_propose_scope(scene),
             };
-            timeline.asked.proposing = Some(out.request_work(analysis::propose_values_job(options)));
+            timeline.asked.proposing = Some(scene.seen.request_work(analysis::propose_values_job(options)));
         }
         Action::Detect => timeline.boxes.detectors = Some(ChooseDetector::default()),
         Action::NextProposal => match next(
@@ -52,11 +51,11 @@ pub(super) fn carry_out_proposal_action(
             current_proposal_place(scene),
             |_| true,
         ) {
-            Some(next) => go_to_proposal(timeline, next, out),
+            Some(next) => go_to_proposal(timeline, next, scene.seen.out),
             None => return ActionOutcome::Cannot(words::NO_PROPOSAL),
         },
         Action::AcceptProposal | Action::EnterValue => {
-            return accept_selected_proposals(timeline, action, scene, out);
+            return accept_selected_proposals(timeline, action, scene);
         }
         _ => return ActionOutcome::No,
     }
@@ -65,12 +64,7 @@ pub(super) fn carry_out_proposal_action(
 
 /// Accepts the selected proposals that have room on their tiers, and goes to the next one that has; at the end it says
 /// that all are accepted, or which are left.
-fn accept_selected_proposals(
-    timeline: &mut TimelinePane,
-    action: Action,
-    scene: &TimelineScene<'_>,
-    out: &mut CommandOutbox,
-) -> ActionOutcome {
+fn accept_selected_proposals(timeline: &mut TimelinePane, action: Action, scene: &TimelineScene<'_>) -> ActionOutcome {
     let chosen = selected_proposal_ids(scene);
     // With its last proposal a tier of proposals disappears.
     timeline.asked.all_reviewed &= scene.seen.shown.annotations.is_empty();
@@ -94,7 +88,9 @@ fn accept_selected_proposals(
     });
     if !accepted.is_empty() {
         let proposals: BTreeSet<i64> = accepted.iter().map(|proposal| proposal.id).collect();
-        let id = out.request_work(analysis::accept_proposals_job(proposals.iter().copied().collect()));
+        let id = scene
+            .seen
+            .request_work(analysis::accept_proposals_job(proposals.iter().copied().collect()));
         let then = ChangeFollowUp {
             proposals,
             ..ChangeFollowUp::default()
@@ -103,9 +99,9 @@ fn accept_selected_proposals(
     }
     if let Some(next) = next {
         if let Some(text) = left_text(scene, &stuck) {
-            out.send_command(WindowCommand::Say(text));
+            scene.seen.send_command(WindowCommand::Say(text));
         }
-        go_to_proposal(timeline, next, out);
+        go_to_proposal(timeline, next, scene.seen.out);
         return ActionOutcome::Yes;
     }
     left.extend(stuck);
@@ -113,10 +109,10 @@ fn accept_selected_proposals(
     left.sort_by_key(|proposal| (proposal.start, proposal.tier, proposal.id));
     if !accepted.is_empty() {
         // Another Enter begins nothing at the same time.
-        out.send_command(WindowCommand::Span(None));
+        scene.seen.send_command(WindowCommand::Span(None));
     }
     timeline.asked.all_reviewed = left.is_empty();
-    out.send_command(match left_text(scene, &left) {
+    scene.seen.send_command(match left_text(scene, &left) {
         Some(text) => WindowCommand::Notify(text, words::LEFT_PROPOSALS_REMEDY),
         None => WindowCommand::Say(scene.seen.say_text(words::ALL_ACCEPTED).to_owned()),
     });
@@ -124,11 +120,7 @@ fn accept_selected_proposals(
 }
 
 /// Rejects the selected annotations if all of them are proposals, and goes to the next one.
-pub(super) fn reject_selected_proposals(
-    timeline: &mut TimelinePane,
-    scene: &TimelineScene<'_>,
-    out: &mut CommandOutbox,
-) -> bool {
+pub(super) fn reject_selected_proposals(timeline: &mut TimelinePane, scene: &TimelineScene<'_>) -> bool {
     let proposals = selected_proposal_ids(scene);
     if proposals.is_empty() {
         return false;
@@ -136,15 +128,17 @@ pub(super) fn reject_selected_proposals(
     let mut left = list_recording_proposals(scene.contents);
     left.retain(|proposal| !proposals.contains(&proposal.id));
     let next = next(&left, current_proposal_place(scene), |_| true);
-    let id = out.request_work(analysis::reject_proposals_job(proposals.iter().copied().collect()));
+    let id = scene
+        .seen
+        .request_work(analysis::reject_proposals_job(proposals.iter().copied().collect()));
     let then = ChangeFollowUp {
         proposals,
         ..ChangeFollowUp::default()
     };
     timeline.asked.pending.insert(id, then);
     match next {
-        Some(next) => go_to_proposal(timeline, next, out),
-        None => out.send_command(WindowCommand::Span(None)),
+        Some(next) => go_to_proposal(timeline, next, scene.seen.out),
+        None => scene.seen.send_command(WindowCommand::Span(None)),
     }
     true
 }
@@ -266,7 +260,7 @@ pub(super) fn show_next(timeline: &mut TimelinePane, scene: &TimelineScene<'_>) 
 }
 
 /// Selects a proposal, and moves the playhead to it.
-fn go_to_proposal(timeline: &mut TimelinePane, to: RecordingProposal, out: &mut CommandOutbox) {
+fn go_to_proposal(timeline: &mut TimelinePane, to: RecordingProposal, out: &CommandOutbox) {
     let micros = RecordingInstant::from_micros;
     out.send_command(WindowCommand::Tier(Some(to.tier)));
     out.send_command(WindowCommand::Annotations([to.id].into()));

@@ -21,11 +21,10 @@ pub(super) fn carry_out_selection_action(
     timeline: &mut TimelinePane,
     action: Action,
     scene: &TimelineScene<'_>,
-    out: &mut CommandOutbox,
 ) -> ActionOutcome {
     match action {
         Action::NextAnnotation | Action::PreviousAnnotation => {
-            if !walk_tier_annotations(scene, out, action == Action::NextAnnotation) {
+            if !walk_tier_annotations(scene, action == Action::NextAnnotation) {
                 return ActionOutcome::Cannot(words::LAST_OF_TIER);
             }
         }
@@ -36,34 +35,30 @@ pub(super) fn carry_out_selection_action(
             let last = tier.annotations.len().checked_sub(1);
             let target_index = last.map(|last| if action == Action::LastAnnotation { last } else { 0 });
             match target_index {
-                Some(at) => select_tier_annotation(tier, at, out),
+                Some(at) => select_tier_annotation(tier, at, scene.seen.out),
                 None => return ActionOutcome::Cannot(words::LAST_OF_TIER),
             }
         }
-        Action::AnnotationBelow => climb(scene, out, 1),
-        Action::AnnotationAbove => climb(scene, out, -1),
-        Action::NextTier => step_tier(scene, out, 1),
-        Action::PreviousTier => step_tier(scene, out, -1),
-        Action::AlsoNext => also(scene, out, true),
-        Action::AlsoPrevious => also(scene, out, false),
+        Action::AnnotationBelow => climb(scene, 1),
+        Action::AnnotationAbove => climb(scene, -1),
+        Action::NextTier => step_tier(scene, 1),
+        Action::PreviousTier => step_tier(scene, -1),
+        Action::AlsoNext => also(scene, true),
+        Action::AlsoPrevious => also(scene, false),
         Action::SelectOnTier => {
             if let Some(tier) = scene.edited_tier() {
                 let all = tier.annotations.ids.iter().copied().collect();
-                out.send_command(WindowCommand::Annotations(all));
+                scene.seen.send_command(WindowCommand::Annotations(all));
             }
         }
-        Action::SelectFromHere => select_to(scene, out, true),
-        Action::SelectToHere => select_to(scene, out, false),
-        Action::ExtendFrameBack => {
-            extend_selection_to(scene, out, scene.step_by_frames(scene.scene_playhead_micros(), -1))
-        }
+        Action::SelectFromHere => select_to(scene, true),
+        Action::SelectToHere => select_to(scene, false),
+        Action::ExtendFrameBack => extend_selection_to(scene, scene.step_by_frames(scene.scene_playhead_micros(), -1)),
         Action::ExtendFrameForward => {
-            extend_selection_to(scene, out, scene.step_by_frames(scene.scene_playhead_micros(), 1))
+            extend_selection_to(scene, scene.step_by_frames(scene.scene_playhead_micros(), 1))
         }
-        Action::ExtendSecondBack => extend_selection_to(scene, out, scene.scene_playhead_micros() - SECOND_IN_MICROS),
-        Action::ExtendSecondForward => {
-            extend_selection_to(scene, out, scene.scene_playhead_micros() + SECOND_IN_MICROS)
-        }
+        Action::ExtendSecondBack => extend_selection_to(scene, scene.scene_playhead_micros() - SECOND_IN_MICROS),
+        Action::ExtendSecondForward => extend_selection_to(scene, scene.scene_playhead_micros() + SECOND_IN_MICROS),
         _ => return ActionOutcome::No,
     }
     timeline.view.reveal = true;
@@ -71,7 +66,7 @@ pub(super) fn carry_out_selection_action(
 }
 
 /// Selects an annotation with its tier and span, and moves the playhead to its start, as ELAN does.
-pub(super) fn select_tier_annotation(tier: &TierContents, at: usize, out: &mut CommandOutbox) {
+pub(super) fn select_tier_annotation(tier: &TierContents, at: usize, out: &CommandOutbox) {
     let span = tier.annotations.annotation_span_at(at);
     out.send_command(WindowCommand::Tier(Some(tier.row.id)));
     out.send_command(WindowCommand::Annotations(BTreeSet::from([tier.annotations.ids[at]])));
@@ -87,7 +82,7 @@ pub(super) fn shown_rows(contents: &RecordingContents, seen: &PaneInput<'_>) -> 
 
 /// Selects the annotation after or before the selected one, or after or before the playhead, on the selected tier;
 /// while looping, goes on from the last to the first. Returns whether there is one.
-fn walk_tier_annotations(scene: &TimelineScene<'_>, out: &mut CommandOutbox, forwards: bool) -> bool {
+fn walk_tier_annotations(scene: &TimelineScene<'_>, forwards: bool) -> bool {
     let Some(tier) = scene.edited_tier() else {
         return false;
     };
@@ -109,18 +104,18 @@ fn walk_tier_annotations(scene: &TimelineScene<'_>, out: &mut CommandOutbox, for
         .shown
         .player
         .looping
-        // An empty tier wraps to an index beyond every one and is filtered out below.
+        // An empty tier wraps to an index beyond every one and is filtered scene.out below.
         .then_some(if forwards { 0 } else { columns.len().wrapping_sub(1) });
     let inside = |at: &usize| *at < columns.len();
     let next_index = next.filter(inside).or(round.filter(inside));
     if let Some(at) = next_index {
-        select_tier_annotation(tier, at, out);
+        select_tier_annotation(tier, at, scene.seen.out);
     }
     next_index.is_some()
 }
 
 /// Adds the annotation after or before the selected ones to the selection.
-fn also(scene: &TimelineScene<'_>, out: &mut CommandOutbox, forwards: bool) {
+fn also(scene: &TimelineScene<'_>, forwards: bool) {
     let chosen = &scene.seen.shown.annotations;
     let Some(tier) = scene.edited_tier() else {
         return;
@@ -135,11 +130,11 @@ fn also(scene: &TimelineScene<'_>, out: &mut CommandOutbox, forwards: bool) {
         Some(at) if at < tier.annotations.len() => {
             let mut all = chosen.clone();
             all.insert(tier.annotations.ids[at]);
-            out.send_command(WindowCommand::Annotations(all));
+            scene.seen.send_command(WindowCommand::Annotations(all));
         }
         Some(_) => {}
         // With nothing selected, extending begins with the next annotation.
-        None if chosen.is_empty() => drop(walk_tier_annotations(scene, out, forwards)),
+        None if chosen.is_empty() => drop(walk_tier_annotations(scene, forwards)),
         None => {}
     }
 }
@@ -155,19 +150,21 @@ fn neighbour<'a>(scene: &TimelineScene<'a>, by: isize) -> Option<&'a TierContent
 }
 
 /// Selects the tier below or above, and its annotation at the playhead.
-fn step_tier(scene: &TimelineScene<'_>, out: &mut CommandOutbox, by: isize) {
+fn step_tier(scene: &TimelineScene<'_>, by: isize) {
     let Some(tier) = neighbour(scene, by) else {
         return;
     };
-    out.send_command(WindowCommand::Tier(Some(tier.row.id)));
+    scene.seen.send_command(WindowCommand::Tier(Some(tier.row.id)));
     let under_index = timeline_data::annotation_index_at(&tier.annotations, scene.scene_playhead_micros());
     let under = under_index.map(|at| tier.annotations.ids[at]);
-    out.send_command(WindowCommand::Annotations(under.into_iter().collect()));
+    scene
+        .seen
+        .send_command(WindowCommand::Annotations(under.into_iter().collect()));
 }
 
 /// Selects the annotation of the tier below or above that lies at the same time, with its span; only the tier if
 /// there is no such annotation.
-fn climb(scene: &TimelineScene<'_>, out: &mut CommandOutbox, by: isize) {
+fn climb(scene: &TimelineScene<'_>, by: isize) {
     let Some(tier) = neighbour(scene, by) else {
         return;
     };
@@ -184,8 +181,8 @@ fn climb(scene: &TimelineScene<'_>, out: &mut CommandOutbox, by: isize) {
     let columns = &tier.annotations;
     let first = columns.ends.partition_point(|end| *end <= from);
     match (first < columns.len()).then(|| columns.starts[first]) {
-        Some(start) if start < to => select_tier_annotation(tier, first, out),
-        _ => step_tier(scene, out, by),
+        Some(start) if start < to => select_tier_annotation(tier, first, scene.seen.out),
+        _ => step_tier(scene, by),
     }
 }
 
@@ -195,7 +192,7 @@ fn selection_span_from_micros(from: i64, to: i64) -> TimeSpan {
 
 /// With `starts`, selects from the playhead to the end of the selection or the recording; otherwise from the start of
 /// the selection or the recording to the playhead.
-fn select_to(scene: &TimelineScene<'_>, out: &mut CommandOutbox, starts: bool) {
+fn select_to(scene: &TimelineScene<'_>, starts: bool) {
     let (at, whole) = (scene.scene_playhead_micros(), scene.seen.shown.player.whole);
     let old = scene.seen.shown.span;
     let new = if starts {
@@ -209,9 +206,11 @@ fn select_to(scene: &TimelineScene<'_>, out: &mut CommandOutbox, starts: bool) {
             .filter(|start| *start < at);
         (start.unwrap_or(whole.span_start_instant().instant_micros()), at)
     };
-    out.send_command(WindowCommand::Annotations(BTreeSet::new()));
+    scene.seen.send_command(WindowCommand::Annotations(BTreeSet::new()));
     let new = selection_span_from_micros(new.0, new.1);
-    out.send_command(WindowCommand::Span(Some(new).filter(|span| !span.is_empty())));
+    scene
+        .seen
+        .send_command(WindowCommand::Span(Some(new).filter(|span| !span.is_empty())));
 }
 
 /// Returns the selection after the playhead moves to `to`. The end of the selection at the playhead moves along; if
@@ -231,16 +230,16 @@ pub(super) fn extended_time_selection(old: Option<TimeSpan>, playhead: i64, to: 
     Some(selection_span_from_micros(anchor, to)).filter(|span| !span.is_empty())
 }
 
-fn extend_selection_to(scene: &TimelineScene<'_>, out: &mut CommandOutbox, to: i64) {
+fn extend_selection_to(scene: &TimelineScene<'_>, to: i64) {
     let whole_span = scene.seen.shown.player.whole;
     // The end of a recording is not an instant in it.
     let last =
         (whole_span.span_end_instant().instant_micros() - 1).max(whole_span.span_start_instant().instant_micros());
     let to = to.clamp(whole_span.span_start_instant().instant_micros(), last);
-    out.send_command(WindowCommand::Annotations(BTreeSet::new()));
+    scene.seen.send_command(WindowCommand::Annotations(BTreeSet::new()));
     let new = extended_time_selection(scene.seen.shown.span, scene.scene_playhead_micros(), to);
-    out.send_command(WindowCommand::Span(new));
-    out.send_seek(RecordingInstant::from_micros(to));
+    scene.seen.send_command(WindowCommand::Span(new));
+    scene.seen.send_seek(RecordingInstant::from_micros(to));
 }
 
 /// Returns the annotations from the first selected one to index `at` on a tier, as Shift and a click select them.

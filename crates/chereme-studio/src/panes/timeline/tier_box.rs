@@ -10,7 +10,6 @@ use eframe::egui::{ComboBox, Grid, Id, Key, Modifiers, Popup, Role, Ui, WidgetIn
 use super::TimelinePane;
 use super::timeline_edit::TimelineScene;
 use super::timeline_parts::box_window;
-use crate::command::CommandOutbox;
 use crate::context::PaneInput;
 use crate::panes::combo;
 use crate::panes::search::field_text;
@@ -276,12 +275,7 @@ fn parents(contents: &RecordingContents, what: &TierBoxPurpose) -> Vec<String> {
 }
 
 /// Shows the box while it is open, and carries out its buttons.
-pub(super) fn show_tier_box(
-    timeline: &mut TimelinePane,
-    ui: &mut Ui,
-    scene: &TimelineScene<'_>,
-    out: &mut CommandOutbox,
-) {
+pub(super) fn show_tier_box(timeline: &mut TimelinePane, ui: &mut Ui, scene: &TimelineScene<'_>) {
     let Some(mut tier) = timeline.boxes.tier_box.take() else {
         return;
     };
@@ -324,7 +318,7 @@ pub(super) fn show_tier_box(
         _ => None,
     };
     if let Some(job) = tier.job(scene.contents.recording.id, before.as_ref()) {
-        let id = out.request_work(job);
+        let id = scene.seen.request_work(job);
         timeline.boxes.tier_asked = Some((id, tier));
     }
 }

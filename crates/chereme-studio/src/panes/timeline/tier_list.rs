@@ -9,7 +9,6 @@ use super::tier_spans::SpanItem;
 use super::timeline_edit::{TimelineScene, holds_proposals, no_room};
 use super::timeline_parts::box_window;
 use super::{ChangeFollowUp, TimelinePane};
-use crate::command::CommandOutbox;
 use crate::script::script_edit;
 use crate::words::{InterfaceText, timeline as words};
 
@@ -47,12 +46,7 @@ fn tiers_matching_text<'a>(scene: &TimelineScene<'a>, text: &str) -> Vec<&'a Tie
 }
 
 /// Shows the list, and copies or moves the selection to the chosen tier.
-pub(super) fn show_tier_chooser(
-    timeline: &mut TimelinePane,
-    ui: &mut Ui,
-    scene: &TimelineScene<'_>,
-    out: &mut CommandOutbox,
-) {
+pub(super) fn show_tier_chooser(timeline: &mut TimelinePane, ui: &mut Ui, scene: &TimelineScene<'_>) {
     let Some(mut choose) = timeline.boxes.choose.take() else {
         return;
     };
@@ -109,7 +103,7 @@ pub(super) fn show_tier_chooser(
         }
     });
     if let Some(tier) = done {
-        match put_selection_on_tier(timeline, scene, tier, choose.moving, out) {
+        match put_selection_on_tier(timeline, scene, tier, choose.moving) {
             None => return,
             Some(why) => choose.why = Some(why),
         }
@@ -125,7 +119,6 @@ pub(super) fn put_selection_on_tier(
     scene: &TimelineScene<'_>,
     to: i64,
     moving: bool,
-    out: &mut CommandOutbox,
 ) -> Option<InterfaceText> {
     let chosen = &scene.seen.shown.annotations;
     let tiers = scene.contents.tiers.iter();
@@ -150,7 +143,7 @@ pub(super) fn put_selection_on_tier(
         ghosts: ghosts.collect(),
         ..ChangeFollowUp::default()
     };
-    timeline.request_annotation_changes(asked, then, out);
+    timeline.request_annotation_changes(asked, then, scene.seen.out);
     None
 }
 

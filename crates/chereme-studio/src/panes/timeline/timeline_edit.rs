@@ -121,49 +121,50 @@ pub(super) fn carry_out_edit_action(
     timeline: &mut TimelinePane,
     action: Action,
     scene: &TimelineScene<'_>,
-    out: &mut CommandOutbox,
 ) -> ActionOutcome {
     let chosen = &scene.seen.shown.annotations;
     let digit = DIGIT_ACTIONS.iter().position(|digit_action| *digit_action == action);
     match action {
         Action::NewAnnotation => begin_new_annotation(timeline, scene),
-        Action::BeginEndAnnotation => begin_or_end(timeline, scene, None, out),
-        Action::SplitAnnotation => split_selected_annotation(timeline, scene, out),
-        Action::MergeAnnotation => merge_selected_annotations(timeline, scene, out),
+        Action::BeginEndAnnotation => begin_or_end(timeline, scene, None),
+        Action::SplitAnnotation => split_selected_annotation(timeline, scene),
+        Action::MergeAnnotation => merge_selected_annotations(timeline, scene),
         Action::EnterValue | Action::EditValue if chosen.is_empty() => begin_new_annotation(timeline, scene),
         Action::EnterValue | Action::EditValue => {
             timeline.edit_annotation_values(scene, chosen.clone());
             ActionOutcome::Yes
         }
         Action::PictureValue => by_picture(timeline, scene),
-        Action::StartHere => move_boundary_to_playhead(timeline, scene, DragGrip::Start, out),
-        Action::EndHere => move_boundary_to_playhead(timeline, scene, DragGrip::End, out),
-        Action::ToSelection => to_selection(timeline, scene, out),
-        Action::StartEarlier => nudge(timeline, scene, DragGrip::Start, -1, out),
-        Action::StartLater => nudge(timeline, scene, DragGrip::Start, 1, out),
-        Action::EndEarlier => nudge(timeline, scene, DragGrip::End, -1, out),
-        Action::EndLater => nudge(timeline, scene, DragGrip::End, 1, out),
-        Action::ShiftEarlier => nudge(timeline, scene, DragGrip::Whole, -1, out),
-        Action::ShiftLater => nudge(timeline, scene, DragGrip::Whole, 1, out),
+        Action::StartHere => move_boundary_to_playhead(timeline, scene, DragGrip::Start),
+        Action::EndHere => move_boundary_to_playhead(timeline, scene, DragGrip::End),
+        Action::ToSelection => to_selection(timeline, scene),
+        Action::StartEarlier => nudge(timeline, scene, DragGrip::Start, -1),
+        Action::StartLater => nudge(timeline, scene, DragGrip::Start, 1),
+        Action::EndEarlier => nudge(timeline, scene, DragGrip::End, -1),
+        Action::EndLater => nudge(timeline, scene, DragGrip::End, 1),
+        Action::ShiftEarlier => nudge(timeline, scene, DragGrip::Whole, -1),
+        Action::ShiftLater => nudge(timeline, scene, DragGrip::Whole, 1),
         Action::DeleteAnnotation | Action::ClearValue if chosen.is_empty() => {
             ActionOutcome::Cannot(shell::NEEDS_ANNOTATION)
         }
         // A proposal that a person removes is rejected, so that it is not proposed again.
-        Action::DeleteAnnotation if proposals::reject_selected_proposals(timeline, scene, out) => ActionOutcome::Yes,
+        Action::DeleteAnnotation if proposals::reject_selected_proposals(timeline, scene) => ActionOutcome::Yes,
         Action::DeleteAnnotation => {
             let changes = requests::remove_annotation_changes(scene.contents, chosen);
-            timeline.request_annotation_changes(changes, ChangeFollowUp::default(), out)
+            timeline.request_annotation_changes(changes, ChangeFollowUp::default(), scene.seen.out)
         }
-        Action::ClearValue => {
-            timeline.request_annotation_changes(requests::set_value(chosen, ""), ChangeFollowUp::default(), out)
-        }
+        Action::ClearValue => timeline.request_annotation_changes(
+            requests::set_value(chosen, ""),
+            ChangeFollowUp::default(),
+            scene.seen.out,
+        ),
         Action::CopyToTier | Action::MoveToTier if chosen.is_empty() => ActionOutcome::Cannot(shell::NEEDS_ANNOTATION),
         Action::CopyToTier | Action::MoveToTier => {
             timeline.boxes.choose = Some(super::tier_list::TierChooser::new(action == Action::MoveToTier));
             ActionOutcome::Yes
         }
         _ => match digit {
-            Some(digit) => by_digit(timeline, scene, digit, out),
+            Some(digit) => by_digit(timeline, scene, digit),
             None => ActionOutcome::No,
         },
     }
@@ -233,12 +234,7 @@ pub(super) fn no_room(tier: &TierContents) -> crate::words::InterfaceText {
 
 /// Begins an annotation at the playhead, or ends the one that was begun; its value is typed next if it has none and the
 /// playhead rests.
-fn begin_or_end(
-    timeline: &mut TimelinePane,
-    scene: &TimelineScene<'_>,
-    value: Option<&str>,
-    out: &mut CommandOutbox,
-) -> ActionOutcome {
+fn begin_or_end(timeline: &mut TimelinePane, scene: &TimelineScene<'_>, value: Option<&str>) -> ActionOutcome {
     let Some(tier) = scene.edited_tier() else {
         return ActionOutcome::Cannot(words::NEEDS_TIER);
     };
@@ -277,7 +273,7 @@ fn begin_or_end(
                 edit: begun.value.is_empty() && !scene.seen.shown.player.plays_on(),
                 ..ChangeFollowUp::follow_up_for_addition(begun.tier, start, end)
             };
-            timeline.request_annotation_changes(vec![add], then, out)
+            timeline.request_annotation_changes(vec![add], then, scene.seen.out)
         }
         None => ActionOutcome::Cannot(no_room(tier)),
     }
@@ -285,12 +281,7 @@ fn begin_or_end(
 
 /// Gives the selected annotations the value of a digit. During playback it begins or ends an annotation with that
 /// value; on a selected span it creates one.
-fn by_digit(
-    timeline: &mut TimelinePane,
-    scene: &TimelineScene<'_>,
-    digit: usize,
-    out: &mut CommandOutbox,
-) -> ActionOutcome {
+fn by_digit(timeline: &mut TimelinePane, scene: &TimelineScene<'_>, digit: usize) -> ActionOutcome {
     let Some(tier) = scene.edited_tier() else {
         return ActionOutcome::Cannot(words::NEEDS_TIER);
     };
@@ -302,13 +293,13 @@ fn by_digit(
     let shown = scene.seen.shown;
     // During playback digits mark times; at rest they set values.
     if shown.player.plays_on() || timeline.entry.begun.is_some() {
-        return begin_or_end(timeline, scene, Some(&value), out);
+        return begin_or_end(timeline, scene, Some(&value));
     }
     if !shown.annotations.is_empty() {
         return timeline.request_annotation_changes(
             requests::set_value(&shown.annotations, &value),
             ChangeFollowUp::default(),
-            out,
+            scene.seen.out,
         );
     }
     let Some(wanted) = scene.selected_time_span() else {
@@ -323,7 +314,7 @@ fn by_digit(
             timeline.request_annotation_changes(
                 vec![add],
                 ChangeFollowUp::follow_up_for_addition(tier.row.id, start, end),
-                out,
+                scene.seen.out,
             )
         }
         None => ActionOutcome::Cannot(no_room(tier)),
@@ -339,11 +330,7 @@ pub(super) fn annotation_selected_alone(scene: &TimelineScene<'_>) -> Option<i64
     })
 }
 
-fn split_selected_annotation(
-    timeline: &mut TimelinePane,
-    scene: &TimelineScene<'_>,
-    out: &mut CommandOutbox,
-) -> ActionOutcome {
+fn split_selected_annotation(timeline: &mut TimelinePane, scene: &TimelineScene<'_>) -> ActionOutcome {
     let Some(annotation) = annotation_selected_alone(scene) else {
         return ActionOutcome::Cannot(shell::NEEDS_ANNOTATION);
     };
@@ -358,14 +345,10 @@ fn split_selected_annotation(
         return ActionOutcome::Cannot(words::SPLIT_INSIDE);
     }
     let change = requests::split_annotation_change(annotation, scene.scene_playhead_micros());
-    timeline.request_annotation_changes(vec![change], ChangeFollowUp::default(), out)
+    timeline.request_annotation_changes(vec![change], ChangeFollowUp::default(), scene.seen.out)
 }
 
-fn merge_selected_annotations(
-    timeline: &mut TimelinePane,
-    scene: &TimelineScene<'_>,
-    out: &mut CommandOutbox,
-) -> ActionOutcome {
+fn merge_selected_annotations(timeline: &mut TimelinePane, scene: &TimelineScene<'_>) -> ActionOutcome {
     let Some(tier) = scene.edited_tier() else {
         return ActionOutcome::Cannot(words::NEEDS_TIER);
     };
@@ -375,19 +358,13 @@ fn merge_selected_annotations(
     }
     let closed = scene.scene_tier_inventory(tier).is_some();
     match requests::merge_annotation_changes(tier, &chosen, closed) {
-        Some(changes) => timeline.request_annotation_changes(changes, ChangeFollowUp::default(), out),
+        Some(changes) => timeline.request_annotation_changes(changes, ChangeFollowUp::default(), scene.seen.out),
         None => ActionOutcome::Cannot(words::NO_NEXT),
     }
 }
 
 /// Moves a boundary of the selected annotations, or the whole annotations, by frames.
-fn nudge(
-    timeline: &mut TimelinePane,
-    scene: &TimelineScene<'_>,
-    grip: DragGrip,
-    frames: i64,
-    out: &mut CommandOutbox,
-) -> ActionOutcome {
+fn nudge(timeline: &mut TimelinePane, scene: &TimelineScene<'_>, grip: DragGrip, frames: i64) -> ActionOutcome {
     let all = scene.held_annotations(&scene.seen.shown.annotations);
     // The first annotation decides the step, since frames need not be equally long in microseconds.
     let first = all.first().and_then(first_of);
@@ -396,23 +373,18 @@ fn nudge(
     };
     let edge = if grip == DragGrip::End { first.end } else { first.start };
     let by = scene.step_by_frames(edge, frames) - edge;
-    move_dragged_annotations(timeline, scene, &all, grip, by, out)
+    move_dragged_annotations(timeline, scene, &all, grip, by)
 }
 
 /// Moves a boundary of the selected annotation to the playhead.
-fn move_boundary_to_playhead(
-    timeline: &mut TimelinePane,
-    scene: &TimelineScene<'_>,
-    grip: DragGrip,
-    out: &mut CommandOutbox,
-) -> ActionOutcome {
+fn move_boundary_to_playhead(timeline: &mut TimelinePane, scene: &TimelineScene<'_>, grip: DragGrip) -> ActionOutcome {
     let chosen: BTreeSet<i64> = annotation_selected_alone(scene).into_iter().collect();
     let all = scene.held_annotations(&chosen);
     let Some(first) = all.first().and_then(first_of) else {
         return ActionOutcome::Cannot(shell::NEEDS_ANNOTATION);
     };
     let edge = if grip == DragGrip::End { first.end } else { first.start };
-    move_dragged_annotations(timeline, scene, &all, grip, scene.scene_playhead_micros() - edge, out)
+    move_dragged_annotations(timeline, scene, &all, grip, scene.scene_playhead_micros() - edge)
 }
 
 fn first_of(held: &DraggedAnnotations) -> Option<SpanItem> {
@@ -426,7 +398,6 @@ fn move_dragged_annotations(
     all: &[DraggedAnnotations],
     grip: DragGrip,
     by: i64,
-    out: &mut CommandOutbox,
 ) -> ActionOutcome {
     if all.iter().all(|held| held.kind == TierTiming::Listed) {
         return ActionOutcome::Cannot(words::NO_TIMES);
@@ -453,12 +424,12 @@ fn move_dragged_annotations(
             ghosts,
             ..ChangeFollowUp::default()
         },
-        out,
+        scene.seen.out,
     )
 }
 
 /// Sets the selected annotation to the selected time, by dragging its boundaries one after the other.
-fn to_selection(timeline: &mut TimelinePane, scene: &TimelineScene<'_>, out: &mut CommandOutbox) -> ActionOutcome {
+fn to_selection(timeline: &mut TimelinePane, scene: &TimelineScene<'_>) -> ActionOutcome {
     let Some((start, end)) = scene.selected_time_span() else {
         return ActionOutcome::Cannot(shell::NEEDS_SELECTION);
     };
@@ -504,16 +475,11 @@ fn to_selection(timeline: &mut TimelinePane, scene: &TimelineScene<'_>, out: &mu
     if asked.is_empty() {
         return ActionOutcome::Cannot(words::BLOCKED);
     }
-    timeline.request_annotation_changes(asked, ChangeFollowUp::default(), out)
+    timeline.request_annotation_changes(asked, ChangeFollowUp::default(), scene.seen.out)
 }
 
 /// Stores a typed value: requests the change of the annotations, or the new annotation.
-pub(super) fn store_typed_value(
-    timeline: &mut TimelinePane,
-    editing: ValueEditing,
-    value: &str,
-    out: &mut CommandOutbox,
-) {
+pub(super) fn store_typed_value(timeline: &mut TimelinePane, editing: ValueEditing, value: &str, out: &CommandOutbox) {
     let (changes, ghosts, select) = match &editing.target {
         EditTarget::Of(annotations) => (requests::set_value(annotations, value), Vec::new(), false),
         EditTarget::New { tier, start, end } => {

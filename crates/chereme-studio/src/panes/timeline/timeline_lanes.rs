@@ -107,7 +107,7 @@ impl MeasuredCurves {
         source: Option<MovementFrames>,
         seen: (i64, i64),
         playhead: i64,
-        out: &mut CommandOutbox,
+        out: &CommandOutbox,
     ) {
         if self.source != source {
             *self = Self {
@@ -468,8 +468,8 @@ mod tests {
     fn visible_pieces_are_measured_from_the_playhead_outwards() {
         let mut curves = MeasuredCurves::default();
         let all = source(12_000);
-        let mut out = CommandOutbox::default();
-        curves.request_curve_pieces(Some(all), (0, 40_000_000), 30_000_000, &mut out);
+        let out = CommandOutbox::default();
+        curves.request_curve_pieces(Some(all), (0, 40_000_000), 30_000_000, &out);
         assert_eq!(curves.asked.map(|it| it.1), Some(2));
         curves.asked = None;
         curves.pieces.insert(2, CurvePiece::default());

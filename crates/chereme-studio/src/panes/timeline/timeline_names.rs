@@ -32,10 +32,10 @@ impl TimelineDrawing<'_, '_> {
         let response = ui.interact(name, Id::unique(("tier", tier.row.id)), Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, &label));
         if response.clicked() {
-            self.out.send_command(WindowCommand::Tier(Some(tier.row.id)));
+            self.seen.send_command(WindowCommand::Tier(Some(tier.row.id)));
         }
         if response.drag_started_by(PointerButton::Primary) {
-            self.out.send_command(WindowCommand::Tier(Some(tier.row.id)));
+            self.seen.send_command(WindowCommand::Tier(Some(tier.row.id)));
             self.timeline.tier_held = Some(tier.row.id);
         }
         self.header_menu(&response, tier.row.id);
@@ -106,8 +106,8 @@ impl TimelineDrawing<'_, '_> {
         let response = ui.interact(rect, Id::unique(("fold", id)), Sense::click());
         response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &label));
         if response.clicked() {
-            self.out.send_command(WindowCommand::Tier(Some(id)));
-            self.out.send_command(WindowCommand::Do(Action::FoldTier));
+            self.seen.send_command(WindowCommand::Tier(Some(id)));
+            self.seen.send_command(WindowCommand::Do(Action::FoldTier));
         }
         timeline_paint::paint_fold_mark(ui, rect, row.folded, &response);
     }
@@ -129,12 +129,12 @@ impl TimelineDrawing<'_, '_> {
             Action::SelectOnTier,
         ];
         if response.secondary_clicked() {
-            self.out.send_command(WindowCommand::Tier(Some(tier)));
+            self.seen.send_command(WindowCommand::Tier(Some(tier)));
         }
         response.context_menu(|ui| {
-            bar::show_menu_actions(ui, self.seen, &TIER_EDIT_ACTIONS, self.out);
+            bar::show_menu_actions(ui, self.seen, &TIER_EDIT_ACTIONS);
             ui.separator();
-            bar::show_menu_actions(ui, self.seen, &TIER_SHOW_ACTIONS, self.out);
+            bar::show_menu_actions(ui, self.seen, &TIER_SHOW_ACTIONS);
         });
     }
 
@@ -175,7 +175,7 @@ impl TimelineDrawing<'_, '_> {
             let order = timeline_tiers::order_before_sibling(&all, id, before).filter(|_| before != Some(id));
             if let Some(order) = order {
                 let scene = TimelineScene::new(contents, self.seen);
-                timeline_tiers::request_tier_order(&scene, order, self.out);
+                timeline_tiers::request_tier_order(&scene, order);
             }
             return;
         }

@@ -19,32 +19,31 @@ pub(super) fn carry_out_clipboard_action(
     timeline: &mut TimelinePane,
     action: Action,
     scene: &TimelineScene<'_>,
-    out: &mut CommandOutbox,
 ) -> ActionOutcome {
     match action {
-        Action::Copy => copy_chosen_annotations(scene, false, out),
-        Action::CopyWithBelow => copy_chosen_annotations(scene, true, out),
+        Action::Copy => copy_chosen_annotations(scene, false),
+        Action::CopyWithBelow => copy_chosen_annotations(scene, true),
         Action::Cut => {
             let chosen = chosen_annotation_ids(scene);
-            let copied = copy_chosen_annotations(scene, true, out);
+            let copied = copy_chosen_annotations(scene, true);
             if copied == ActionOutcome::Yes {
                 let gone = requests::remove_annotation_changes(scene.contents, &chosen);
-                timeline.request_annotation_changes(gone, ChangeFollowUp::default(), out);
+                timeline.request_annotation_changes(gone, ChangeFollowUp::default(), scene.seen.out);
             }
             copied
         }
         Action::CopyTime => {
             let text = time_text(scene.seen.shown.player.player_playhead());
             let message = fill_text_braces(scene.seen.say_text(words::TIME_COPIED), &[("time", &text)]);
-            out.send_command(WindowCommand::Copy(text));
-            out.send_command(WindowCommand::Say(message));
+            scene.seen.send_command(WindowCommand::Copy(text));
+            scene.seen.send_command(WindowCommand::Say(message));
             ActionOutcome::Yes
         }
         Action::Paste | Action::PasteHere => match timeline.boxes.clip.take() {
-            Some(text) => paste_clipboard_text(timeline, scene, &text, action == Action::PasteHere, out),
+            Some(text) => paste_clipboard_text(timeline, scene, &text, action == Action::PasteHere),
             None => ActionOutcome::Cannot(words::NOTHING_TO_PASTE),
         },
-        Action::Duplicate => duplicate_chosen_annotations(timeline, scene, out),
+        Action::Duplicate => duplicate_chosen_annotations(timeline, scene),
         _ => ActionOutcome::No,
     }
 }
@@ -76,7 +75,7 @@ fn copied_rows(contents: &RecordingContents, chosen: &BTreeSet<i64>) -> Vec<Copi
     all
 }
 
-fn copy_chosen_annotations(scene: &TimelineScene<'_>, with_below: bool, out: &mut CommandOutbox) -> ActionOutcome {
+fn copy_chosen_annotations(scene: &TimelineScene<'_>, with_below: bool) -> ActionOutcome {
     let mut chosen = chosen_annotation_ids(scene);
     if chosen.is_empty() {
         return ActionOutcome::Cannot(shell::NEEDS_ANNOTATION);
@@ -89,9 +88,13 @@ fn copy_chosen_annotations(scene: &TimelineScene<'_>, with_below: bool, out: &mu
         let tier = copied.tier.as_deref().unwrap_or_default();
         (tier, copied.start, copied.end, copied.value.clone())
     });
-    out.send_command(WindowCommand::Copy(annotate_clipboard::write_clipboard_text(rows)));
+    scene
+        .seen
+        .send_command(WindowCommand::Copy(annotate_clipboard::write_clipboard_text(rows)));
     let text = scene.seen.say_text(words::COPIED);
-    out.send_command(WindowCommand::Say(fill_text_braces(text, &[("n", &all.len())])));
+    scene
+        .seen
+        .send_command(WindowCommand::Say(fill_text_braces(text, &[("n", &all.len())])));
     ActionOutcome::Yes
 }
 
@@ -100,13 +103,12 @@ fn paste_clipboard_text(
     scene: &TimelineScene<'_>,
     text: &str,
     here: bool,
-    out: &mut CommandOutbox,
 ) -> ActionOutcome {
     let frames = scene.recording_frame_times();
     let frame = |at: u64| frames.map(|frames| frames.snap_frame_start(at));
     let (rows, odd) = match annotate_clipboard::read_clipboard_text(text, frame) {
         ClipboardText::Rows(rows, odd) => (rows, odd),
-        ClipboardText::Values(values) => return assign_spoken_values(timeline, scene, values, out),
+        ClipboardText::Values(values) => return assign_spoken_values(timeline, scene, values),
     };
     let Some(tier) = scene.edited_tier() else {
         return ActionOutcome::Cannot(words::NEEDS_TIER);
@@ -120,7 +122,7 @@ fn paste_clipboard_text(
     plan.odd.extend(odd);
     plan.odd.sort_by_key(|odd_row| odd_row.line);
     if plan.odd.is_empty() {
-        return add_pasted_annotations(timeline, &plan.adds, out);
+        return add_pasted_annotations(timeline, &plan.adds, scene.seen.out);
     }
     // Text that was copied here and has no free place needs no list of lines.
     let taken = plan.odd.iter().all(|odd_row| odd_row.why == OddReason::Taken);
@@ -140,7 +142,7 @@ fn paste_clipboard_text(
 pub(super) fn add_pasted_annotations(
     timeline: &mut TimelinePane,
     adds: &[PastedAnnotation],
-    out: &mut CommandOutbox,
+    out: &CommandOutbox,
 ) -> ActionOutcome {
     if adds.is_empty() {
         return ActionOutcome::Cannot(words::NOTHING_TO_PASTE);
@@ -172,7 +174,6 @@ fn assign_spoken_values(
     timeline: &mut TimelinePane,
     scene: &TimelineScene<'_>,
     values: Vec<(usize, String)>,
-    out: &mut CommandOutbox,
 ) -> ActionOutcome {
     let Some(tier) = scene.edited_tier() else {
         return ActionOutcome::Cannot(words::NEEDS_TIER);
@@ -196,7 +197,7 @@ fn assign_spoken_values(
             return match dragged::room_for_annotation(scene.contents, tier, wanted) {
                 Some(span) => {
                     let (tier, value) = (tier.row.id, value.clone());
-                    add_pasted_annotations(timeline, &[PastedAnnotation { tier, span, value }], out)
+                    add_pasted_annotations(timeline, &[PastedAnnotation { tier, span, value }], scene.seen.out)
                 }
                 None => ActionOutcome::Cannot(timeline_edit::no_room(tier)),
             };
@@ -236,7 +237,7 @@ fn assign_spoken_values(
     if let Some(first) = odd.first() {
         let text = odd_text(scene, first);
         let what: [(&str, &dyn std::fmt::Display); 2] = [("n", &first.line), ("what", &text)];
-        out.send_command(WindowCommand::Say(fill_text_braces(
+        scene.seen.send_command(WindowCommand::Say(fill_text_braces(
             scene.seen.say_text(words::PASTE_LINE),
             &what,
         )));
@@ -244,16 +245,12 @@ fn assign_spoken_values(
     if asked.is_empty() {
         return ActionOutcome::Yes;
     }
-    timeline.request_annotation_changes(asked, ChangeFollowUp::default(), out)
+    timeline.request_annotation_changes(asked, ChangeFollowUp::default(), scene.seen.out)
 }
 
 /// Copies selected annotations on other tiers to the selected tier; those on the selected tier are copied behind
 /// themselves if there is room.
-fn duplicate_chosen_annotations(
-    timeline: &mut TimelinePane,
-    scene: &TimelineScene<'_>,
-    out: &mut CommandOutbox,
-) -> ActionOutcome {
+fn duplicate_chosen_annotations(timeline: &mut TimelinePane, scene: &TimelineScene<'_>) -> ActionOutcome {
     let chosen = chosen_annotation_ids(scene);
     let (Some(tier), false) = (scene.edited_tier(), chosen.is_empty()) else {
         return ActionOutcome::Cannot(shell::NEEDS_ANNOTATION);
@@ -261,7 +258,7 @@ fn duplicate_chosen_annotations(
     let chosen_indices: Vec<usize> = dragged::chosen_annotation_indices(tier, &chosen).collect();
     let columns = &tier.annotations;
     let Some(last) = chosen_indices.last() else {
-        return match tier_list::put_selection_on_tier(timeline, scene, tier.row.id, false, out) {
+        return match tier_list::put_selection_on_tier(timeline, scene, tier.row.id, false) {
             Some(why) => ActionOutcome::Cannot(why),
             None => ActionOutcome::Yes,
         };
@@ -282,7 +279,7 @@ fn duplicate_chosen_annotations(
     }
     let plan = scene.plan_annotation_paste(tier, all, Some(end));
     if plan.odd.is_empty() {
-        add_pasted_annotations(timeline, &plan.adds, out)
+        add_pasted_annotations(timeline, &plan.adds, scene.seen.out)
     } else {
         ActionOutcome::Cannot(words::NO_ROOM_BESIDE)
     }

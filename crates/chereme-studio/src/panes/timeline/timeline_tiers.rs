@@ -12,7 +12,6 @@ use super::tier_box::{TierBox, TierBoxPurpose};
 use super::timeline_edit::TimelineScene;
 use super::{TimelinePane, timeline_view_settings};
 use crate::action::Action;
-use crate::command::CommandOutbox;
 use crate::panes::ActionOutcome;
 use crate::words::timeline as words;
 use crate::work::editing;
@@ -22,13 +21,12 @@ pub(super) fn carry_out_tier_action(
     timeline: &mut TimelinePane,
     action: Action,
     scene: &TimelineScene<'_>,
-    out: &mut CommandOutbox,
 ) -> ActionOutcome {
     match action {
         Action::TiersByName | Action::TiersByKind => {
-            return sort_scene_tiers(scene, action == Action::TiersByName, out);
+            return sort_scene_tiers(scene, action == Action::TiersByName);
         }
-        Action::HideEmptyTiers => return hide_empty(scene, out),
+        Action::HideEmptyTiers => return hide_empty(scene),
         _ => {}
     }
     const OWN_TIER_ACTIONS: [Action; 9] = [
@@ -60,7 +58,7 @@ pub(super) fn carry_out_tier_action(
         let scheme = chosen.map_or(TierScheme::Usual, |tier| {
             TierScheme::Below(TierRequestName::Number(tier.row.id))
         });
-        out.request_work(editing::add_tiers(recording, scheme));
+        scene.seen.request_work(editing::add_tiers(recording, scheme));
         return ActionOutcome::Yes;
     }
     let Some(tier) = scene.edited_tier() else {
@@ -93,7 +91,9 @@ pub(super) fn carry_out_tier_action(
                 place: Some(place),
                 ..TierPropertyChange::default()
             };
-            out.request_work(editing::change_tier_job(TierRequestName::Number(id), change));
+            scene
+                .seen
+                .request_work(editing::change_tier_job(TierRequestName::Number(id), change));
             return ActionOutcome::Yes;
         }
         Action::HideTier => {
@@ -101,29 +101,29 @@ pub(super) fn carry_out_tier_action(
         }
         _ => timeline_view_settings::toggle_in_set(&mut settings.folded, name),
     }
-    timeline_view_settings::change_timeline_settings(scene.seen, out, settings);
+    timeline_view_settings::change_timeline_settings(scene.seen, settings);
     ActionOutcome::Yes
 }
 
 /// Requests an order of the tiers, if it differs from the present one.
-pub(super) fn request_tier_order(scene: &TimelineScene<'_>, order: Vec<i64>, out: &mut CommandOutbox) -> ActionOutcome {
+pub(super) fn request_tier_order(scene: &TimelineScene<'_>, order: Vec<i64>) -> ActionOutcome {
     let tiers = &scene.contents.tiers;
     if tiers.iter().map(|tier| tier.row.id).eq(order.iter().copied()) {
         return ActionOutcome::Cannot(words::SORTED_ALREADY);
     }
     let recording = RowName::Number(scene.contents.recording.id);
-    out.request_work(editing::order_tiers(recording, order));
+    scene.seen.request_work(editing::order_tiers(recording, order));
     ActionOutcome::Yes
 }
 
-fn sort_scene_tiers(scene: &TimelineScene<'_>, by_name: bool, out: &mut CommandOutbox) -> ActionOutcome {
+fn sort_scene_tiers(scene: &TimelineScene<'_>, by_name: bool) -> ActionOutcome {
     let mut tiers: Vec<&TierContents> = scene.contents.tiers.iter().collect();
     if by_name {
         tiers.sort_by_cached_key(|tier| natural(&tier.row.name));
     } else {
         tiers.sort_by_key(|tier| tier_role_rank(&tier.row));
     }
-    request_tier_order(scene, tiers.iter().map(|tier| tier.row.id).collect(), out)
+    request_tier_order(scene, tiers.iter().map(|tier| tier.row.id).collect())
 }
 
 /// Returns the sort key of a name: its words, and its numbers by value.
@@ -171,7 +171,7 @@ fn tier_role_rank(row: &TierRow) -> (usize, usize, usize) {
 }
 
 /// Hides every tier that has no annotations, and whose descendants have none.
-fn hide_empty(scene: &TimelineScene<'_>, out: &mut CommandOutbox) -> ActionOutcome {
+fn hide_empty(scene: &TimelineScene<'_>) -> ActionOutcome {
     let mut settings = scene.seen.settings.timeline.clone();
     let before = settings.hidden.len();
     let tiers = &scene.contents.tiers;
@@ -188,7 +188,7 @@ fn hide_empty(scene: &TimelineScene<'_>, out: &mut CommandOutbox) -> ActionOutco
     if settings.hidden.len() == before {
         return ActionOutcome::Cannot(words::NONE_EMPTY);
     }
-    timeline_view_settings::change_timeline_settings(scene.seen, out, settings);
+    timeline_view_settings::change_timeline_settings(scene.seen, settings);
     ActionOutcome::Yes
 }
 

@@ -18,7 +18,7 @@ use super::{
     timeline_paint,
 };
 use crate::action::Action;
-use crate::command::{CommandOutbox, WindowCommand};
+use crate::command::WindowCommand;
 use crate::context::PaneInput;
 use crate::model::time_window::TimeWindow;
 use crate::words::{fill_text_braces, timeline as words};
@@ -133,15 +133,10 @@ fn fitting_column_width(widths: impl Iterator<Item = f32>) -> f32 {
     widths.fold(TIER_NAMES_WIDTH_POINTS, f32::max)
 }
 
-pub(super) fn show_timeline_pane(
-    timeline: &mut TimelinePane,
-    ui: &mut Ui,
-    seen: &PaneInput<'_>,
-    out: &mut CommandOutbox,
-) {
+pub(super) fn show_timeline_pane(timeline: &mut TimelinePane, ui: &mut Ui, seen: &PaneInput<'_>) {
     let Some(recording) = seen.shown.recording else {
         if seen.snapshot.overview.recordings.is_empty() {
-            return no_recordings(ui, seen, out);
+            return no_recordings(ui, seen);
         }
         ui.label(seen.say_text(words::NO_RECORDING));
         return;
@@ -151,9 +146,9 @@ pub(super) fn show_timeline_pane(
         return;
     };
     let fresh = timeline.turn_timeline_to_recording(recording);
-    follow_up(timeline, &scene, out);
+    follow_up(timeline, &scene);
     ui.spacing_mut().item_spacing.y = 2.0;
-    bar::show_timeline_bar(ui, &scene, out);
+    bar::show_timeline_bar(ui, &scene);
     if let Some(showing) = &seen.shown.made {
         let names: [(&str, &dyn std::fmt::Display); 2] = [
             ("made", &showing.made.name),
@@ -189,7 +184,6 @@ pub(super) fn show_timeline_pane(
         window,
         names,
         seen,
-        out,
     };
     frame.show_timeline_overview(ui, &scene);
     frame.show_ruler_row(ui);
@@ -199,15 +193,15 @@ pub(super) fn show_timeline_pane(
     } else {
         frame.show_tier_rows(ui, scene.contents);
     }
-    tier_list::show_tier_chooser(timeline, ui, &scene, out);
-    detector_list::show_detector_list(timeline, ui, &scene, out);
-    tier_box::show_tier_box(timeline, ui, &scene, out);
-    paste_box::show_paste_box(timeline, ui, &scene, out);
-    go_to_time::show_go_to_time(timeline, ui, &scene, out);
+    tier_list::show_tier_chooser(timeline, ui, &scene);
+    detector_list::show_detector_list(timeline, ui, &scene);
+    tier_box::show_tier_box(timeline, ui, &scene);
+    paste_box::show_paste_box(timeline, ui, &scene);
+    go_to_time::show_go_to_time(timeline, ui, &scene);
 }
 
 /// Shows the next steps in a corpus without recordings.
-fn no_recordings(ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
+fn no_recordings(ui: &mut Ui, seen: &PaneInput<'_>) {
     let empty = seen.snapshot.overview.signs.is_empty();
     let (text, actions): (_, &[Action]) = if empty {
         let import = &[Action::ImportFiles, Action::ImportFolder];
@@ -221,14 +215,14 @@ fn no_recordings(ui: &mut Ui, seen: &PaneInput<'_>, out: &mut CommandOutbox) {
         for action in actions.iter().copied() {
             let button = ui.button(seen.say_text(action.action_row().name));
             if button.on_hover_text(seen.keys.action_keys_text(action)).clicked() {
-                out.send_command(WindowCommand::Do(action));
+                seen.send_command(WindowCommand::Do(action));
             }
         }
     });
 }
 
 /// Selects added annotations, and forgets ghosts that the snapshot contains.
-fn follow_up(timeline: &mut TimelinePane, scene: &TimelineScene<'_>, out: &mut CommandOutbox) {
+fn follow_up(timeline: &mut TimelinePane, scene: &TimelineScene<'_>) {
     timeline
         .asked
         .settle_requested_changes(scene.seen.snapshot.open.as_ref());
@@ -245,10 +239,10 @@ fn follow_up(timeline: &mut TimelinePane, scene: &TimelineScene<'_>, out: &mut C
             timeline.edit_annotation_values(scene, all.clone());
         }
         if all.len() == 1 {
-            out.send_command(WindowCommand::Span(Some(span)));
+            scene.seen.send_command(WindowCommand::Span(Some(span)));
         }
-        out.send_command(WindowCommand::Tier(Some(made.tier.row.id)));
-        out.send_command(WindowCommand::Annotations(all));
+        scene.seen.send_command(WindowCommand::Tier(Some(made.tier.row.id)));
+        scene.seen.send_command(WindowCommand::Annotations(all));
     }
     timeline.asked.to_edit = false;
     if std::mem::take(&mut timeline.asked.to_propose) {
@@ -256,7 +250,7 @@ fn follow_up(timeline: &mut TimelinePane, scene: &TimelineScene<'_>, out: &mut C
     }
     let restored = timeline.entry.editing.as_ref().filter(|_| timeline.entry.restored);
     if let Some(tier) = restored.and_then(|target| target.editing_tier(scene)) {
-        out.send_command(WindowCommand::Tier(Some(tier.row.id)));
+        scene.seen.send_command(WindowCommand::Tier(Some(tier.row.id)));
         timeline.entry.restored = false;
     }
     if let Some(name) = &timeline.boxes.tier_named {
@@ -265,7 +259,7 @@ fn follow_up(timeline: &mut TimelinePane, scene: &TimelineScene<'_>, out: &mut C
         if id.is_some() && scene.seen.shown.tier == id {
             (timeline.boxes.tier_named, timeline.view.reveal) = (None, true);
         } else if id.is_some() {
-            out.send_command(WindowCommand::Tier(id));
+            scene.seen.send_command(WindowCommand::Tier(id));
         }
     }
     let recording = scene.contents.recording.id;
@@ -290,7 +284,6 @@ pub(super) struct TimelineDrawing<'a, 'b> {
     pub(super) window: TimeWindow,
     pub(super) names: f32,
     pub(super) seen: &'a PaneInput<'b>,
-    pub(super) out: &'a mut CommandOutbox,
 }
 
 impl TimelineDrawing<'_, '_> {
@@ -303,11 +296,11 @@ impl TimelineDrawing<'_, '_> {
             for (action, hint) in [(Action::UsualTiers, usual), (Action::AddTier, &adding)] {
                 let button = ui.button(self.seen.say_text(action.action_row().name));
                 if button.on_hover_text(hint).clicked() {
-                    self.out.send_command(WindowCommand::Do(action));
+                    self.seen.send_command(WindowCommand::Do(action));
                 }
             }
             let scene = TimelineScene::new(contents, self.seen);
-            bar::show_copy_tiers_menu(ui, &scene, self.out);
+            bar::show_copy_tiers_menu(ui, &scene);
         });
     }
 
@@ -341,7 +334,7 @@ impl TimelineDrawing<'_, '_> {
         } else if let Some(at) = response.interact_pointer_pos()
             && (response.dragged() || response.clicked())
         {
-            self.out.send_seek(self.instant_at_x(at.x - lane.left()));
+            self.seen.send_seek(self.instant_at_x(at.x - lane.left()));
         }
         self.wheel(ui, lane);
     }

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use super::tier_spans::NeighbourMode;
 use super::timeline_lanes;
 use crate::action::Action;
-use crate::command::{CommandOutbox, WindowCommand};
+use crate::command::WindowCommand;
 use crate::context::PaneInput;
 
 impl TimelineSettings {
@@ -57,10 +57,10 @@ pub(crate) fn toggle_in_set<T: Ord>(set: &mut BTreeSet<T>, it: T) {
 }
 
 /// Changes the timeline's settings.
-pub(crate) fn change_timeline_settings(seen: &PaneInput<'_>, out: &mut CommandOutbox, timeline: TimelineSettings) {
+pub(crate) fn change_timeline_settings(seen: &PaneInput<'_>, timeline: TimelineSettings) {
     let mut settings = seen.settings.clone();
     settings.timeline = timeline;
-    out.send_command(WindowCommand::Settings(Box::new(settings)));
+    seen.send_command(WindowCommand::Settings(Box::new(settings)));
 }
 
 #[cfg(test)]
