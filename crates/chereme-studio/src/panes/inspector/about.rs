@@ -455,7 +455,7 @@ pub(super) fn show_sign_details(it: &mut InspectorPane, ui: &mut Ui, seen: &Pane
                 if is_stated && ui.small_button("×").on_hover_text(tip).clicked() {
                     let (name, other) = (relation.relation.clone(), RowName::Number(relation.related_id));
                     let remove = RelationChange::Remove;
-                    out.request_work(recordings_jobs::change_relation_job(sign.id, name, other, remove));
+                    seen.request_work(recordings_jobs::change_relation_job(sign.id, name, other, remove));
                 }
             });
             ui.end_row();
@@ -464,7 +464,7 @@ pub(super) fn show_sign_details(it: &mut InspectorPane, ui: &mut Ui, seen: &Pane
         if let Some(text) = show_editable_line(ui, seen, key, words::RELATION_NEW, "") {
             let (name, other) = text.trim().split_once(' ').unwrap_or((text.trim(), ""));
             let (name, other) = (name.to_owned(), RowName::Text(other.trim().to_owned()));
-            out.request_work(recordings_jobs::change_relation_job(
+            seen.request_work(recordings_jobs::change_relation_job(
                 sign.id,
                 name,
                 other,
