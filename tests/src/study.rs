@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::path::Path;
 
-use chereme_corpus::study::StudyRequest;
+use chereme_corpus::study::{AnswersOptions, StudyRequest};
 use chereme_corpus::{Corpus, ProgressReceiver, ignore_progress_step};
 
 /// The answers, without the hash of the plan.
@@ -37,6 +37,6 @@ pub fn small_study(corpus: &mut Corpus, desk: &Path) -> Result<(), Box<dyn Error
     let planned = corpus.plan_study(&request.make_study_plan()?, progress)?;
     let file = desk.join("heron.json");
     std::fs::write(&file, ANSWERS.replace("HASH", &planned.plan_sha256))?;
-    corpus.import_answers("bowls", &[file], progress)?;
+    corpus.import_answers("bowls", &[file], &AnswersOptions::default(), progress)?;
     Ok(())
 }

@@ -3,19 +3,6 @@
 use crate::ops::OperatorNeighbours;
 use crate::recipe::*;
 
-impl Recipe {
-    /// Returns the recipe for the same sign with the fewest operators: pairs of `reverse` or `swap` are removed,
-    /// displacements of the same hands are merged, and operators without effect are left out.
-    ///
-    /// Evaluation performs the same reduced steps, so that moving hands out of reach and back loses nothing.
-    #[must_use]
-    pub fn simplified_recipe(&self) -> Self {
-        Self {
-            root: simplify_node(&self.root),
-        }
-    }
-}
-
 /// A step to be evaluated.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct PlannedStep {
@@ -47,37 +34,44 @@ pub(crate) fn plan_effective_steps(steps: &[Step]) -> Vec<PlannedStep> {
     kept
 }
 
-fn simplify_node(of: &RecipeNode) -> RecipeNode {
-    match of {
-        RecipeNode::Pipe(pipe) => {
-            let steps: Vec<Step> = plan_effective_steps(&pipe.steps).into_iter().map(|p| p.step).collect();
-            let of = simplify_node(&pipe.of);
-            if steps.is_empty() {
-                return of;
-            }
-            RecipeNode::Pipe(OperatorPipe {
-                of: Box::new(of),
-                steps,
-            })
-        }
-        RecipeNode::Then(then) => RecipeNode::Then(RecipeChain {
-            first: Box::new(simplify_node(&then.first)),
-            next: then
-                .next
-                .iter()
-                .map(|joined| JoinedPiece {
-                    via: joined.via,
-                    node: simplify_node(&joined.node),
-                })
-                .collect(),
-        }),
-        leaf => leaf.clone(),
-    }
-}
-
 #[cfg(test)]
-mod tests {
-    use crate::Recipe;
+pub(crate) mod tests {
+    use super::*;
+
+    /// Returns the recipe that evaluation carries out: that for the same sign with the fewest operators.
+    pub(crate) fn simplified_recipe(recipe: &Recipe) -> Recipe {
+        Recipe {
+            root: simplify_node(&recipe.root),
+        }
+    }
+
+    fn simplify_node(of: &RecipeNode) -> RecipeNode {
+        match of {
+            RecipeNode::Pipe(pipe) => {
+                let steps: Vec<Step> = plan_effective_steps(&pipe.steps).into_iter().map(|p| p.step).collect();
+                let of = simplify_node(&pipe.of);
+                if steps.is_empty() {
+                    return of;
+                }
+                RecipeNode::Pipe(OperatorPipe {
+                    of: Box::new(of),
+                    steps,
+                })
+            }
+            RecipeNode::Then(then) => RecipeNode::Then(RecipeChain {
+                first: Box::new(simplify_node(&then.first)),
+                next: then
+                    .next
+                    .iter()
+                    .map(|joined| JoinedPiece {
+                        via: joined.via,
+                        node: simplify_node(&joined.node),
+                    })
+                    .collect(),
+            }),
+            leaf => leaf.clone(),
+        }
+    }
 
     #[test]
     fn steps_without_effect_are_left_out() {
@@ -100,7 +94,7 @@ mod tests {
             ),
         ] {
             let recipe: Recipe = text.parse().expect(text);
-            assert_eq!(recipe.simplified_recipe().to_string(), simple);
+            assert_eq!(simplified_recipe(&recipe).to_string(), simple);
         }
     }
 }

@@ -424,7 +424,7 @@ pub(crate) fn find_addressed_stretch(
     };
     Ok(RecordingStretch {
         recording: stored_recordings::load_recording_row(connection, recording)?,
-        span: TimeSpan::span_between(RecordingInstant::from_micros(start), RecordingInstant::from_micros(end)),
+        span: TimeSpan::from_span_micros(start, end),
         token: Some(token),
     })
 }

@@ -183,14 +183,7 @@ pub struct ListFilter {
     pub offset: usize,
 }
 
-impl ListFilter {
-    /// Returns the filter with the condition `pattern` on `column` added.
-    #[must_use]
-    pub fn with_column_pattern(mut self, column: impl Into<String>, pattern: impl Into<String>) -> Self {
-        self.columns.push((column.into(), pattern.into()));
-        self
-    }
-}
+impl ListFilter {}
 
 /// Rows for display.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -524,7 +517,7 @@ mod tests {
             let mut list = ListFilter::default();
             for part in filter.split("; ").filter(|part| !part.is_empty()) {
                 let (column, pattern) = part.split_once('=').expect("a filter");
-                list = list.with_column_pattern(column, pattern);
+                list.columns.push((column.to_owned(), pattern.to_owned()));
             }
             list.descending = sort.starts_with('-');
             list.sort = Some(sort.trim_start_matches('-').to_owned()).filter(|sort| !sort.is_empty());
@@ -583,7 +576,10 @@ mod tests {
             ("components", "U", "with a query"),
             ("recording", "recording:9", "no recording:9"),
         ] {
-            let filter = ListFilter::default().with_column_pattern(column, pattern);
+            let filter = ListFilter {
+                columns: vec![(column.to_owned(), pattern.to_owned())],
+                ..ListFilter::default()
+            };
             let error = corpus.list_rows(ListKind::Tokens, &filter).expect_err(column);
             assert!(error.to_string().contains(want), "{error}");
             assert!(error.error_remedy().is_some());

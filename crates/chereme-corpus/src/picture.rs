@@ -414,7 +414,7 @@ impl Corpus {
         seals::verify_tokens(self.store.read_connection(), &numbers)?;
         let spans = tokens.iter().filter_map(|token| {
             let (start, end) = (token.start_us?, token.end_us?);
-            let span = TimeSpan::span_between(RecordingInstant::from_micros(start), RecordingInstant::from_micros(end));
+            let span = TimeSpan::from_span_micros(start, end);
             let within = span.span_intersection(stretch.span)?;
             Some(caption(&token.gloss, within))
         });

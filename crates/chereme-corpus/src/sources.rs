@@ -8,7 +8,7 @@ use chereme_compose::{
     AlphabetLetter, BodyInput, BodyLanguageChanges, ComponentValue, CuePhases, DonorCoding, ExpressionSource,
     HeldValue, LearnedProfile, MovementMaterial, RecipeSources, SourceError, SpellingTimes, TokenExample,
 };
-use chereme_motion::{BodySide, RecordingInstant, TimeSpan};
+use chereme_motion::{BodySide, TimeSpan};
 use chereme_sign::ComponentInventory;
 use chereme_sign::hamnosys::NotatedSign;
 use chereme_sign::milestones::ExpressionFunction;
@@ -122,10 +122,7 @@ impl<'a> CorpusSources<'a> {
         handedness: SignerHandedness,
     ) -> CorpusResult<Vec<HeldValue>> {
         let mut held_values = Vec::new();
-        let (start, end) = (
-            stretch.span.span_start_instant().instant_micros(),
-            stretch.span.span_end_instant().instant_micros(),
-        );
+        let (start, end) = stretch.span.span_bounds_micros();
         for tier in stored_tiers::load_tier_rows(self.connection, stretch.recording.id)? {
             let Some((component, feature)) = tier.role.role_component() else {
                 continue;
@@ -135,10 +132,7 @@ impl<'a> CorpusSources<'a> {
                 .iter()
                 .find(|stored| Some(stored.id) == tier.inventory_id);
             for row in stored_tiers::annotations_near(self.connection, tier.id, start, end)? {
-                let row_span = TimeSpan::span_between(
-                    RecordingInstant::from_micros(row.start_us),
-                    RecordingInstant::from_micros(row.end_us),
-                );
+                let row_span = row.annotation_row_span();
                 let Some(span) = row_span.span_intersection(stretch.span) else {
                     continue;
                 };
@@ -433,9 +427,7 @@ impl RecipeSources for CorpusSources<'_> {
         let find = || -> CorpusResult<Vec<TokenExample>> {
             let mut examples = Vec::new();
             for found in signs::tokens_holding(self.connection, component.component_name(), value)? {
-                let span = found.span_us.map(|(start, end)| {
-                    TimeSpan::span_between(RecordingInstant::from_micros(start), RecordingInstant::from_micros(end))
-                });
+                let span = found.span_us.map(|(start, end)| TimeSpan::from_span_micros(start, end));
                 let hand = found.hand.and_then(AnnotatedHands::single_hand);
                 let handedness = if found.left_handed {
                     SignerHandedness::Left

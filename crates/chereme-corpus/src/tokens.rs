@@ -4,7 +4,7 @@ mod counted_reading;
 
 use std::collections::BTreeMap;
 
-use chereme_motion::{RecordingInstant, TimeSpan};
+use chereme_motion::TimeSpan;
 use chereme_sign::tier::AnnotatedHands;
 use chereme_sign::token::{ComponentSpan, owning_token_index};
 use chereme_sign::{ComponentField, ComponentReading, HandRef, SignComponent, SignPhase, SignerHandedness};
@@ -88,10 +88,7 @@ pub(crate) fn derive_with_progress(
     let by_time = AnnotationsByTime::read_recording_annotations(connection, &recording, window, inventories, progress)?;
     let tokens = match by_time.within {
         Some(within) => {
-            let (start, end) = (
-                within.span_start_instant().instant_micros(),
-                within.span_end_instant().instant_micros(),
-            );
+            let (start, end) = within.span_bounds_micros();
             signs::tokens_near(connection, recording.id, start, end)?
         }
         None => signs::tokens_of_recording(connection, recording.id)?,
@@ -223,7 +220,7 @@ impl AnnotationsByTime {
             let mut within = window;
             for tier in of_components() {
                 for row in tier_annotations_within(connection, tier, Some(window))? {
-                    within = hull_of_two_spans(within, annotation_row_span(&row));
+                    within = hull_of_two_spans(within, row.annotation_row_span());
                 }
             }
             by_time.within = Some(within);
@@ -232,7 +229,7 @@ impl AnnotationsByTime {
         let Some(reach) = by_time
             .glosses
             .iter()
-            .map(|gloss| annotation_row_span(&gloss.row))
+            .map(|gloss| gloss.row.annotation_row_span())
             .reduce(hull_of_two_spans)
         else {
             return Ok(by_time);
@@ -249,7 +246,7 @@ impl AnnotationsByTime {
                 if undecided.contains(&row.id) {
                     continue;
                 }
-                context = hull_of_two_spans(context, annotation_row_span(&row));
+                context = hull_of_two_spans(context, row.annotation_row_span());
                 by_time.add_component(tier, &row, inventory);
             }
         }
@@ -265,7 +262,7 @@ impl AnnotationsByTime {
 
     fn is_gloss_within(&self, gloss: &GlossAnnotation) -> bool {
         self.within
-            .is_none_or(|within| are_spans_touching(annotation_row_span(&gloss.row), within))
+            .is_none_or(|within| are_spans_touching(gloss.row.annotation_row_span(), within))
     }
 
     fn add_component(&mut self, tier: &TierRow, row: &AnnotationRow, inventory: Option<&StoredInventory>) {
@@ -303,7 +300,7 @@ impl AnnotationsByTime {
                 span: ComponentSpan {
                     // A tier of another participant follows that person's dominant hand.
                     field: resolve_field_hands(field, self.handedness_of(tier.participant.as_deref())),
-                    span: annotation_row_span(row),
+                    span: row.annotation_row_span(),
                     reading: reading.clone(),
                 },
                 annotation: row.id,
@@ -327,7 +324,7 @@ impl AnnotationsByTime {
         let hand = hand.map(|hand| HandRef::from(hand.resolve_hand_ref(handedness)));
         let owned = self.owned.get(&gloss.row.id).into_iter().flatten();
         let annotated = AnnotatedGloss {
-            span: annotation_row_span(&gloss.row),
+            span: gloss.row.annotation_row_span(),
             hand,
             coded: owned.map(|place| &self.components[*place]).collect(),
             preferred: self.preferred.as_deref(),
@@ -349,7 +346,7 @@ impl AnnotationsByTime {
         }
         let mut owned: BTreeMap<i64, Vec<usize>> = BTreeMap::new();
         for ((participant, _), glosses) in &hands {
-            let spans: Vec<TimeSpan> = glosses.iter().map(|gloss| annotation_row_span(&gloss.row)).collect();
+            let spans: Vec<TimeSpan> = glosses.iter().map(|gloss| gloss.row.annotation_row_span()).collect();
             let longest = spans.iter().map(|span| span.span_micros()).max().unwrap_or(0);
             for (at, coded) in self.components.iter().enumerate() {
                 report_token_step(progress, at)?;
@@ -436,20 +433,10 @@ fn tier_annotations_within(
     match window {
         None => stored_tiers::load_tier_annotation_rows(connection, tier.id),
         Some(window) => {
-            let (start, end) = (
-                window.span_start_instant().instant_micros(),
-                window.span_end_instant().instant_micros(),
-            );
+            let (start, end) = window.span_bounds_micros();
             stored_tiers::annotations_near(connection, tier.id, start, end)
         }
     }
-}
-
-fn annotation_row_span(row: &AnnotationRow) -> TimeSpan {
-    TimeSpan::span_between(
-        RecordingInstant::from_micros(row.start_us),
-        RecordingInstant::from_micros(row.end_us),
-    )
 }
 
 /// Returns the glosses that touch `within`, by time.
@@ -473,10 +460,7 @@ fn glosses_touching_span<'t>(
 }
 
 fn hull_of_two_spans(a: TimeSpan, b: TimeSpan) -> TimeSpan {
-    TimeSpan::span_between(
-        a.span_start_instant().min(b.span_start_instant()),
-        a.span_end_instant().max(b.span_end_instant()),
-    )
+    a.enclosing_span(b)
 }
 
 fn are_spans_touching(a: TimeSpan, b: TimeSpan) -> bool {

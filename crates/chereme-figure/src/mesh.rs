@@ -34,15 +34,6 @@ impl TriangleMesh {
         let moved = other.triangles.iter().map(|t| t.map(|i| i + base));
         self.triangles.extend(moved);
     }
-
-    /// Returns the smallest and the largest corner of its axis-aligned bounding box; `None` if it is
-    /// empty.
-    #[must_use]
-    pub fn mesh_bounding_box(&self) -> Option<(Vec3, Vec3)> {
-        let mut places = self.vertices.iter().map(|vertex| vertex.position);
-        let first = places.next()?;
-        Some(places.fold((first, first), |(low, high), at| (low.min(at), high.max(at))))
-    }
 }
 
 /// Returns the path through `points` as a thin tube of `radius` metres that fades from `from` to

@@ -165,15 +165,6 @@ impl CurveTrack {
         &self.curves
     }
 
-    /// Returns the curve of this name; ignores case if exactly one name matches that way.
-    #[must_use]
-    pub fn find_curve(&self, name: &str) -> Option<&ScalarCurve> {
-        let exact = self.curves.iter().find(|curve| curve.name == name);
-        let mut alike = self.curves.iter().filter(|curve| curve.name.eq_ignore_ascii_case(name));
-        // A second name that matches makes the choice a guess, so there is none.
-        exact.or_else(|| alike.next().filter(|_| alike.next().is_none()))
-    }
-
     /// Returns every curve's number at `instant`: interpolated between the two frames around it, or that of the nearest
     /// frame outside the track; `None` in a gap.
     #[must_use]
@@ -229,11 +220,6 @@ mod tests {
             [Some(1.0), None, None, Some(0.5), Some(0.5)]
         );
         assert_eq!(curves.curve_track_span().span_seconds(), 0.4);
-        assert_eq!(
-            curves.find_curve("jawopen").map(|curve| curve.name.as_str()),
-            Some("JawOpen")
-        );
-        assert_eq!(curves.find_curve("jaw"), None);
     }
 
     #[test]

@@ -21,20 +21,6 @@ pub enum InterpolationKind {
 }
 
 impl InterpolationKind {
-    /// Every kind of interpolation.
-    pub const ALL_INTERPOLATIONS: [Self; 4] = [Self::Slerp, Self::Cosine, Self::Sigmoid, Self::MinimumJerk];
-
-    /// Returns the name in recipes.
-    #[must_use]
-    pub fn interpolation_name(self) -> &'static str {
-        match self {
-            Self::Slerp => "slerp",
-            Self::Cosine => "cosine",
-            Self::Sigmoid => "sigmoid",
-            Self::MinimumJerk => "minimum-jerk",
-        }
-    }
-
     /// Returns the share of the path that is done at weight `w`, which is clamped to 0..=1; it is 0 at 0, ½ at ½ and 1
     /// at 1, and never decreases.
     #[must_use]
@@ -83,25 +69,21 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
+    const EVERY_KIND: [InterpolationKind; 4] = [
+        InterpolationKind::Slerp,
+        InterpolationKind::Cosine,
+        InterpolationKind::Sigmoid,
+        InterpolationKind::MinimumJerk,
+    ];
+
     #[test]
     fn speed_profiles_equal_their_end_points_and_published_values() {
-        for interpolation in InterpolationKind::ALL_INTERPOLATIONS {
-            assert_eq!(
-                interpolation.interpolation_share(0.0),
-                0.0,
-                "{}",
-                interpolation.interpolation_name()
-            );
-            assert_eq!(
-                interpolation.interpolation_share(1.0),
-                1.0,
-                "{}",
-                interpolation.interpolation_name()
-            );
+        for interpolation in EVERY_KIND {
+            assert_eq!(interpolation.interpolation_share(0.0), 0.0, "{interpolation:?}");
+            assert_eq!(interpolation.interpolation_share(1.0), 1.0, "{interpolation:?}");
             assert!(
                 (interpolation.interpolation_share(0.5) - 0.5).abs() < 1e-12,
-                "{}",
-                interpolation.interpolation_name()
+                "{interpolation:?}"
             );
         }
         let printed = |w: f64| 1.0 / (1.0 + (-10.0 * (w - 0.5f64)).exp());
@@ -131,7 +113,7 @@ mod tests {
             prop_assume!(axis.length() > 0.1);
             let a = DQuat::from_rotation_x(0.3);
             let b = a * DQuat::from_axis_angle(axis.normalize(), angle);
-            for interpolation in InterpolationKind::ALL_INTERPOLATIONS {
+            for interpolation in EVERY_KIND {
                 let q = interpolation.interpolate_rotation(a, b, w);
                 prop_assert!(q.is_normalized());
                 let along = a.angle_between(q) + q.angle_between(b);

@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 use crate::axes::SpaceConvention;
 use crate::column::FrameNumberColumn;
 use crate::curves::{TrackError, channel_frame_count, check_names};
-use crate::time::{FrameRate, RecordingInstant, TimeSpan};
+use crate::time::{FrameRate, TimeSpan};
 use crate::times::FrameTimes;
 
 /// The space of a file's positions.
@@ -310,15 +310,6 @@ impl MarkerTrack {
         let shown = |point: &MotionMarker| point.marker_position(frame).map(|at| self.space.displayed_position(at));
         self.points.iter().map(shown).collect()
     }
-
-    /// Returns the positions of the points for a picture at the frame that `instant` shows.
-    #[must_use]
-    pub fn shown_at(&self, instant: RecordingInstant) -> Vec<Option<DVec3>> {
-        match self.times.shown_frame_at(instant, self.frames) {
-            Some(frame) => self.displayed_markers(frame),
-            None => vec![None; self.points.len()],
-        }
-    }
 }
 
 #[cfg(test)]
@@ -346,10 +337,6 @@ mod tests {
             .expect("a track");
         let places = |frame: usize| markers.displayed_markers(frame)[0].map(|at| at.y);
         assert_eq!([places(0), places(1), places(2)], [Some(1.0), None, Some(0.9)]);
-        assert_eq!(
-            markers.shown_at(RecordingInstant::from_seconds(9.0)),
-            markers.displayed_markers(2)
-        );
         assert_eq!(markers.marker_track_span().span_micros(), 60_000);
         let slower = markers.at_rate(FrameRate::new(25, 1).expect("a rate"));
         assert_eq!(slower.marker_track_span().span_micros(), 120_000);

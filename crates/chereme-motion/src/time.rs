@@ -128,6 +128,18 @@ impl TimeSpan {
         }
     }
 
+    /// Returns the span between two times in microseconds, whichever comes first.
+    #[must_use]
+    pub fn from_span_micros(a: i64, b: i64) -> Self {
+        Self::span_between(RecordingInstant::from_micros(a), RecordingInstant::from_micros(b))
+    }
+
+    /// Returns the start and the end of the span in microseconds.
+    #[must_use]
+    pub const fn span_bounds_micros(self) -> (i64, i64) {
+        (self.start.instant_micros(), self.end.instant_micros())
+    }
+
     /// Returns the first instant of the span.
     #[must_use]
     pub const fn span_start_instant(self) -> RecordingInstant {
@@ -175,6 +187,15 @@ impl TimeSpan {
     pub fn span_intersection(self, other: Self) -> Option<Self> {
         let (start, end) = (self.start.max(other.start), self.end.min(other.end));
         (start < end).then_some(Self { start, end })
+    }
+
+    /// Returns the smallest span that contains both.
+    #[must_use]
+    pub fn enclosing_span(self, other: Self) -> Self {
+        Self {
+            start: self.start.min(other.start),
+            end: self.end.max(other.end),
+        }
     }
 
     /// Returns whether the spans share an instant.

@@ -262,12 +262,7 @@ mod tests {
     fn pauses_of_several_usual_steps_are_gaps() {
         let gaps = |seconds: &[f64]| -> Vec<(i64, i64)> {
             let times = listed(seconds);
-            let ends = |it: &TimeSpan| {
-                (
-                    it.span_start_instant().instant_micros(),
-                    it.span_end_instant().instant_micros(),
-                )
-            };
+            let ends = |it: &TimeSpan| it.span_bounds_micros();
             times.frame_time_gaps(seconds.len()).iter().map(ends).collect()
         };
         // At 10 frames a second three steps are longer than a quarter of a second.

@@ -212,7 +212,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn span(start: i64, end: i64) -> TimeSpan {
-        TimeSpan::span_between(RecordingInstant::from_micros(start), RecordingInstant::from_micros(end))
+        TimeSpan::from_span_micros(start, end)
     }
 
     /// Every relation in the order of the table's columns; the distances are 5 microseconds.

@@ -218,13 +218,6 @@ pub enum TierEdit {
     Put(TierAnnotation),
     /// Removes the annotation with this handle.
     Remove(AnnotationId),
-    /// Gives a tier another vocabulary, or removes its vocabulary.
-    Vocabulary {
-        /// The tier.
-        tier: TierId,
-        /// The id of the vocabulary.
-        vocabulary: Option<String>,
-    },
 }
 
 /// A change that somebody asks for.
@@ -306,13 +299,6 @@ pub enum AskedTierChange {
         annotation: AnnotationId,
         /// The new value.
         value: ComponentReading,
-    },
-    /// Gives a tier another vocabulary, or removes its vocabulary.
-    SetVocabulary {
-        /// The tier.
-        tier: TierId,
-        /// The id of the vocabulary.
-        vocabulary: Option<String>,
     },
 }
 
@@ -422,11 +408,6 @@ impl TierSet {
             match edit {
                 TierEdit::Put(annotation) => self.put_annotation(annotation),
                 TierEdit::Remove(id) => self.remove_annotation(id),
-                TierEdit::Vocabulary { tier, vocabulary } => {
-                    if let Some(tier) = self.tiers.get_mut(&tier) {
-                        tier.vocabulary = vocabulary;
-                    }
-                }
             }
         }
     }

@@ -133,11 +133,10 @@ fn phased(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use chereme_motion::RecordingInstant;
     use proptest::prelude::*;
 
     fn span(start: i64, end: i64) -> TimeSpan {
-        TimeSpan::span_between(RecordingInstant::from_micros(start), RecordingInstant::from_micros(end))
+        TimeSpan::from_span_micros(start, end)
     }
 
     fn says(text: &str) -> ComponentSpan {

@@ -5,6 +5,7 @@ use chereme_sign::SignerHandedness;
 
 use super::goldens::list;
 use crate::golden::{compare, put};
+use crate::simplify::tests::simplified_recipe;
 use crate::units::{BodyDirection, HandChoice, RecipeLength, mean_of_directions};
 use crate::{MeasuredSpline, Recipe};
 
@@ -99,7 +100,7 @@ fn golden_texts_of_recipes() {
         match text.parse::<Recipe>() {
             Ok(recipe) => {
                 put(&mut out, format!("prints {recipe}"));
-                put(&mut out, format!("simply {}", recipe.simplified_recipe()));
+                put(&mut out, format!("simply {}", simplified_recipe(&recipe)));
                 let json = serde_json::to_string(&recipe).expect("JSON");
                 put(&mut out, format!("json {json}"));
                 let back: Recipe = serde_json::from_str(&json).expect("a recipe");

@@ -6,7 +6,7 @@ use chereme_motion::{RecordingInstant, TimeSpan};
 use chereme_sign::tier::{EditError, NamedAnnotation, TierViolation};
 use rusqlite::Connection;
 
-use super::{annotation_row_id, span_of};
+use super::annotation_row_id;
 use crate::address::message_names::{FIRST_FRESH_HANDLE, annotation_named, name_message_ids, quoted_value};
 use crate::db::stored_recordings;
 use crate::db::stored_tiers::{self as rows, AnnotationRow, TierRow};
@@ -43,7 +43,7 @@ pub(super) fn refused_change_error(connection: &Connection, tier: i64, error: &E
         }
         _ => "a new annotation".to_owned(),
     };
-    let there = span_of(&other);
+    let there = other.annotation_row_span();
     let message = format!(
         "{what} from {} to {} overlaps {} ({} to {}) on the tier {:?} of {:?}",
         span.span_start_instant(),
@@ -75,14 +75,18 @@ fn free_near(
     length: Option<i64>,
 ) -> CorpusResult<Vec<String>> {
     let parent = match other.parent_id.filter(|_| tier.parent_id.is_some()) {
-        Some(parent) => Some(span_of(&rows::load_annotation_row(connection, parent)?)),
+        Some(parent) => Some(rows::load_annotation_row(connection, parent)?.annotation_row_span()),
         None => None,
     };
     let from = parent.map_or(0, |span| span.span_start_instant().instant_micros());
     let to = parent.map(|span| span.span_end_instant().instant_micros()).or(length);
     let all = rows::load_tier_annotation_rows(connection, tier.id)?;
     let within = |row: &&AnnotationRow| row.end_us > from && to.is_none_or(|to| row.start_us < to);
-    let taken: Vec<TimeSpan> = all.iter().filter(within).map(span_of).collect();
+    let taken: Vec<TimeSpan> = all
+        .iter()
+        .filter(within)
+        .map(AnnotationRow::annotation_row_span)
+        .collect();
     let micros = RecordingInstant::from_micros;
     let mut edge = micros(from);
     let (mut before, mut after) = (None, None);

@@ -270,10 +270,7 @@ impl AnnotationChangeRun<'_> {
     /// Returns the annotation on the parent of a symbolic tier that contains all of `span`.
     pub(super) fn find_parent_annotation(&self, tier: &TierRow, span: TimeSpan) -> CorpusResult<i64> {
         let above = tier.parent_id.unwrap_or_default();
-        let (start, end) = (
-            span.span_start_instant().instant_micros(),
-            span.span_end_instant().instant_micros(),
-        );
+        let (start, end) = span.span_bounds_micros();
         let near = tier_rows::annotations_near(self.connection, above, start, end)?;
         let holds = |row: &&AnnotationRow| row.start_us <= start && end <= row.end_us;
         near.iter().find(holds).map(|row| row.id).ok_or_else(|| {

@@ -7,8 +7,7 @@ use chereme_sign::tier::{AnnotationId, TierAnnotation, TierEdit};
 use rusqlite::Connection;
 use serde_json::{Value, json};
 
-use super::scope::enclosing_span;
-use super::{annotation_row_id, span_of};
+use super::annotation_row_id;
 use crate::address::message_names::FIRST_FRESH_HANDLE;
 use crate::db::stored_columns::{AnnotationOrigin, ValueState};
 use crate::db::stored_tiers::{self as tier_rows, AnnotationRow};
@@ -49,7 +48,7 @@ pub(super) fn write_annotation_edits(
                 let parent = new.parent.map(|id| row_id(id, &fresh));
                 match rows.get(&row_id(new.id, &fresh)) {
                     Some(old) => {
-                        written.extend_written_span(span_of(old));
+                        written.extend_written_span(old.annotation_row_span());
                         let row = changed_annotation_row(old, new, parent, says);
                         tier_rows::update_annotation(connection, &row)?;
                         written.changed += 1;
@@ -64,12 +63,11 @@ pub(super) fn write_annotation_edits(
             TierEdit::Remove(id) => {
                 let id = row_id(*id, &fresh);
                 if let Some(old) = rows.get(&id) {
-                    written.extend_written_span(span_of(old));
+                    written.extend_written_span(old.annotation_row_span());
                 }
                 tier_rows::delete_annotation(connection, id)?;
                 written.removed += 1;
             }
-            TierEdit::Vocabulary { .. } => {}
         }
     }
     Ok(written)
@@ -77,7 +75,7 @@ pub(super) fn write_annotation_edits(
 
 impl WrittenEdits {
     fn extend_written_span(&mut self, span: TimeSpan) {
-        self.touched = Some(self.touched.map_or(span, |touched| enclosing_span(touched, span)));
+        self.touched = Some(self.touched.map_or(span, |touched| touched.enclosing_span(span)));
     }
 }
 

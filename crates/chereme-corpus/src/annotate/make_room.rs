@@ -8,7 +8,7 @@ use chereme_sign::tier::tier_spans::{self, DragGrip, NeighbourMode, SpanItem, Sp
 
 use super::drag_limits::{self, TierTiming};
 use super::replace::annotation_item;
-use super::{AnnotationChangeRun, annotation_handle, span_of};
+use super::{AnnotationChangeRun, annotation_handle};
 use crate::db::stored_tiers::{self as rows, AnnotationRow, TierRow};
 use crate::error::{CorpusError, CorpusResult};
 
@@ -49,7 +49,7 @@ impl AnnotationChangeRun<'_> {
         }
         let now = rows::load_annotation_row(self.connection, row.id)?;
         // The neighbours may have stopped the annotation before its goal.
-        if span_of(&now) == span {
+        if now.annotation_row_span() == span {
             return Ok(true);
         }
         let (start, end) = (now.start_us, now.end_us);
@@ -78,10 +78,7 @@ impl AnnotationChangeRun<'_> {
         };
         let limits = self.sibling_time_limits(tier, parent)?;
         let items = self.sibling_annotations(tier, parent)?;
-        let wanted = (
-            span.span_start_instant().instant_micros(),
-            span.span_end_instant().instant_micros(),
-        );
+        let wanted = span.span_bounds_micros();
         match tier_spans::open_span_room(&items, wanted, mode, limits) {
             Some(changed) => self.respan_annotations(tier, &tier_spans::order_span_changes(&items, &changed)),
             // The tier rules report the obstacle.
@@ -91,10 +88,7 @@ impl AnnotationChangeRun<'_> {
 
     fn respan_annotations(&mut self, tier: &TierRow, items: &[SpanItem]) -> CorpusResult<()> {
         for item in items {
-            let span = TimeSpan::span_between(
-                RecordingInstant::from_micros(item.start),
-                RecordingInstant::from_micros(item.end),
-            );
+            let span = TimeSpan::from_span_micros(item.start, item.end);
             let annotation = annotation_handle(item.id);
             self.carry_out_edit(tier.id, &AskedTierChange::Move { annotation, span }, None)?;
         }
@@ -107,13 +101,15 @@ impl AnnotationChangeRun<'_> {
             .iter()
             // Below a parent, only its own children can be in the way.
             .filter(|row| tier.parent_id.is_none() || row.parent_id == parent);
-        Ok(sibling_rows.map(|row| annotation_item(row.id, span_of(row))).collect())
+        Ok(sibling_rows
+            .map(|row| annotation_item(row.id, row.annotation_row_span()))
+            .collect())
     }
 
     fn sibling_time_limits(&mut self, tier: &TierRow, parent: Option<i64>) -> CorpusResult<SpanLimits> {
         let least = drag_limits::MIN_ANNOTATION_US;
         if let Some(parent) = parent.filter(|_| tier.parent_id.is_some()) {
-            let span = span_of(&rows::load_annotation_row(self.connection, parent)?);
+            let span = rows::load_annotation_row(self.connection, parent)?.annotation_row_span();
             return Ok(SpanLimits {
                 from: span.span_start_instant().instant_micros(),
                 to: span.span_end_instant().instant_micros(),

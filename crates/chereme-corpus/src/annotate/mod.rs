@@ -497,7 +497,7 @@ impl<'a> AnnotationChangeRun<'a> {
             let end = end.unwrap_or_else(|| still(row.end_us));
             let span = self.span_from_moments(row.tier_id, start, end)?;
             // Setting the same times must not move the neighbours.
-            if span != span_of(row) {
+            if span != row.annotation_row_span() {
                 if !self.moved_with_others(row, &tier, span)? {
                     self.carry_out_edit(row.tier_id, &AskedTierChange::Move { annotation, span }, None)?;
                 }
@@ -606,13 +606,6 @@ fn annotation_handle(id: i64) -> AnnotationId {
 
 fn annotation_row_id(id: AnnotationId) -> i64 {
     i64::try_from(id.0).unwrap_or_default()
-}
-
-fn span_of(row: &AnnotationRow) -> TimeSpan {
-    TimeSpan::span_between(
-        RecordingInstant::from_micros(row.start_us),
-        RecordingInstant::from_micros(row.end_us),
-    )
 }
 
 fn is_symbolic(tier: &TierRow) -> bool {

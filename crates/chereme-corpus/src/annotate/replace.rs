@@ -11,7 +11,7 @@ use serde::Serialize;
 
 use super::{
     AnnotateOptions, AnnotateReport, AnnotationAction, AnnotationChange, AnnotationChangeRun, AnnotationName,
-    TierRequestName, annotate_names, span_of,
+    TierRequestName, annotate_names,
 };
 use crate::Corpus;
 use crate::address::{self, RowName};
@@ -261,7 +261,7 @@ pub(super) fn plan_tier_shift(
         }
         let old: Vec<SpanItem> = rows::load_tier_annotation_rows(connection, tier.id)?
             .iter()
-            .map(|row| annotation_item(row.id, span_of(row)))
+            .map(|row| annotation_item(row.id, row.annotation_row_span()))
             .collect();
         let new: Vec<SpanItem> = old.iter().map(|item| shift_item_by(*item, by_us)).collect();
         check_shift_range(connection, recording, tier, &new, by_us)?;

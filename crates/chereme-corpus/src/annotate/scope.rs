@@ -7,7 +7,7 @@ use chereme_motion::{FrameRate, RecordingInstant, TimeSpan};
 use chereme_sign::tier::{AnnotatedHands, AnnotationId, AskedTierChange, Tier, TierAnnotation, TierId, TierSet};
 use rusqlite::Connection;
 
-use super::{annotation_handle, annotation_row_id, span_of, unsigned};
+use super::{annotation_handle, annotation_row_id, unsigned};
 use crate::db::stored_recordings::{self, RecordingRow};
 use crate::db::stored_tiers::{self as tier_rows, AnnotationRow, TierRow};
 use crate::error::{CorpusError, CorpusResult};
@@ -64,7 +64,7 @@ impl AnnotationScope {
 
     pub(super) fn extend_touched_span(&mut self, span: Option<TimeSpan>) {
         self.touched = match (self.touched, span) {
-            (Some(a), Some(b)) => Some(enclosing_span(a, b)),
+            (Some(a), Some(b)) => Some(a.enclosing_span(b)),
             (a, b) => a.or(b),
         };
     }
@@ -169,10 +169,7 @@ impl AnnotationScope {
         let above = changed.and_then(|row| row.parent_id);
         let named: Vec<TierAnnotation> = rows.values().map(rule_annotation_from_row).collect();
         if let Some(window) = change.change_window(&named.iter().collect::<Vec<_>>()) {
-            let (start, end) = (
-                window.span_start_instant().instant_micros(),
-                window.span_end_instant().instant_micros(),
-            );
+            let (start, end) = window.span_bounds_micros();
             for tier in above.into_iter().chain([tier]) {
                 for row in tier_rows::annotations_near(connection, tier, start, end)? {
                     rows.insert(row.id, row);
@@ -211,13 +208,6 @@ impl MovementClock {
     }
 }
 
-pub(super) fn enclosing_span(a: TimeSpan, b: TimeSpan) -> TimeSpan {
-    TimeSpan::span_between(
-        a.span_start_instant().min(b.span_start_instant()),
-        a.span_end_instant().max(b.span_end_instant()),
-    )
-}
-
 /// Returns a stored tier in the form for the tier rules; values are checked against inventories elsewhere.
 pub(super) fn sign_tier(row: &TierRow) -> Tier {
     Tier {
@@ -237,7 +227,7 @@ pub(super) fn rule_annotation_from_row(row: &AnnotationRow) -> TierAnnotation {
         tier: TierId(unsigned(row.tier_id)),
         parent: row.parent_id.map(|id| AnnotationId(unsigned(id))),
         order: u32::try_from(row.position).unwrap_or(u32::MAX),
-        span: span_of(row),
+        span: row.annotation_row_span(),
         value: row.annotation_reading(),
     }
 }

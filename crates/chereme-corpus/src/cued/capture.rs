@@ -579,10 +579,7 @@ pub(super) fn load_recording_phones(
         .into_iter()
         .map(|row| SpokenPhone {
             label: row.value.trim().to_owned(),
-            span: Some(TimeSpan::span_between(
-                RecordingInstant::from_micros(row.start_us),
-                RecordingInstant::from_micros(row.end_us.max(row.start_us)),
-            )),
+            span: Some(TimeSpan::from_span_micros(row.start_us, row.end_us.max(row.start_us))),
         })
         .collect();
     let alphabet = guessed_alphabet(code, &phones);

@@ -182,6 +182,11 @@ impl AnnotationRow {
         check_text(place, &self.value)
     }
 
+    /// Returns its span on the clock of the recording.
+    pub(crate) fn annotation_row_span(&self) -> TimeSpan {
+        TimeSpan::from_span_micros(self.start_us, self.end_us)
+    }
+
     /// Returns the state with the value.
     pub(crate) fn annotation_reading(&self) -> ComponentReading {
         self.state.reading_with_value(&self.value)
@@ -464,10 +469,7 @@ pub(crate) fn load_tier_set(connection: &Connection, recording: i64) -> CorpusRe
                 tier: TierId(row.id as u64),
                 parent: annotation.parent_id.map(|id| AnnotationId(id as u64)),
                 order: u32::try_from(annotation.position).unwrap_or(u32::MAX),
-                span: TimeSpan::span_between(
-                    RecordingInstant::from_micros(annotation.start_us),
-                    RecordingInstant::from_micros(annotation.end_us),
-                ),
+                span: annotation.annotation_row_span(),
                 value: ComponentReading::from(annotation.value.as_str()),
             });
         }

@@ -14,6 +14,7 @@ use std::io::Write;
 use ::csv::{Writer, WriterBuilder};
 use rusqlite::Connection;
 
+use super::ExportJob;
 use crate::consent::ConsentAudience;
 use crate::db::notations;
 use crate::db::people::{self, SIGNER_ATTRIBUTE_PREFIX};
@@ -69,14 +70,8 @@ const FIXED_TOKEN_COLUMNS: [&str; 13] = [
 ];
 
 /// Writes one row for each token, with all its components and its own attributes.
-pub(super) fn write_token_csv(
-    connection: &Connection,
-    tokens: &[i64],
-    form: TableForm,
-    out: &mut dyn Write,
-    notes: &mut Vec<String>,
-    progress: &mut ProgressReceiver<'_>,
-) -> CorpusResult<()> {
+pub(super) fn write_token_csv(job: &mut ExportJob<'_, '_>, tokens: &[i64], form: TableForm) -> CorpusResult<()> {
+    let connection = job.connection;
     let mut columns: BTreeSet<TokenTableColumn> = BTreeSet::new();
     let mut languages: BTreeMap<String, usize> = BTreeMap::new();
     let mut unclear = 0;
@@ -105,7 +100,7 @@ pub(super) fn write_token_csv(
                 .values()
                 .map(|token| token.sign_id),
         );
-        report_csv_progress(progress, part * signs::MAX_ROWS_PER_QUERY, tokens.len() * 2)?;
+        report_csv_progress(job.progress, part * signs::MAX_ROWS_PER_QUERY, tokens.len() * 2)?;
     }
     for sign in &signs {
         for (language, texts) in sign_translations_by_language(connection, *sign)? {
@@ -114,12 +109,12 @@ pub(super) fn write_token_csv(
         }
     }
     if unclear > 0 {
-        notes.push(format!(
+        job.notes.push(format!(
             "{} with \">\" or \"+\" in it would be read back as several",
             format_noun_count(unclear as u64, "values")
         ));
     }
-    let mut table = CsvTableWriter::new(form, out);
+    let mut table = CsvTableWriter::new(form, job.out);
     let titles = FIXED_TOKEN_COLUMNS.iter().map(|title| (*title).to_owned());
     let translations = languages
         .iter()
@@ -176,7 +171,7 @@ pub(super) fn write_token_csv(
             table.write_record(row)?;
         }
         report_csv_progress(
-            progress,
+            job.progress,
             tokens.len() + part * signs::MAX_ROWS_PER_QUERY,
             tokens.len() * 2,
         )?;
@@ -185,15 +180,11 @@ pub(super) fn write_token_csv(
 }
 
 /// Writes the annotations of a tier as a table of changes; applied unchanged, it leaves the tier as it is.
-pub(super) fn write_annotation_csv(
-    connection: &Connection,
-    tier: i64,
-    form: TableForm,
-    out: &mut dyn Write,
-) -> CorpusResult<()> {
+pub(super) fn write_annotation_csv(job: &mut ExportJob<'_, '_>, tier: i64, form: TableForm) -> CorpusResult<()> {
+    let connection = job.connection;
     let tier = stored_tiers::load_tier_row(connection, tier)?;
     let recording = stored_recordings::load_recording_row(connection, tier.recording_id)?;
-    let mut table = CsvTableWriter::new(form, out);
+    let mut table = CsvTableWriter::new(form, job.out);
     let titles = ["recording", "tier", "start", "end", "value", "action", "id", "parent"];
     table.write_record(titles)?;
     let symbolic = tier.stereotype.is_some_and(|stereotype| !stereotype.is_alignable());

@@ -10,6 +10,7 @@ use chereme_motion::Clip;
 use chereme_motion::column::ColumnNumbers;
 use rusqlite::Connection;
 
+use super::ExportJob;
 use super::movement_form::MovementForm;
 use crate::address::RecordingStretch;
 use crate::error::{CorpusError, CorpusResult};
@@ -78,16 +79,15 @@ const DEFAULT_BVH_DECIMALS: u8 = 6;
 /// # Errors
 /// Fails if the recording has no movement, the body does not fit, or writing fails.
 pub(super) fn write_shaped_bvh(
-    connection: &Connection,
+    job: &mut ExportJob<'_, '_>,
     stretch: &RecordingStretch,
     form: &MovementForm,
-    out: &mut dyn Write,
-    notes: &mut Vec<String>,
 ) -> CorpusResult<usize> {
-    let track = MotionTrack::open_motion_track(connection, stretch.recording.id)?;
-    let movement = form.load_shaped_movement(connection, &track, track.stretch_frames(stretch), notes)?;
-    notes.push("places are in centimetres, Y up, and the signer faces +Z".to_owned());
-    write_converted_clip(&movement.clip_in_centimetres()?, out)
+    let track = MotionTrack::open_motion_track(job.connection, stretch.recording.id)?;
+    let movement = form.load_shaped_movement(job.connection, &track, track.stretch_frames(stretch), job.notes)?;
+    job.notes
+        .push("places are in centimetres, Y up, and the signer faces +Z".to_owned());
+    write_converted_clip(&movement.clip_in_centimetres()?, job.out)
 }
 
 /// Writes movement from another format, with rotations as Euler angles.

@@ -15,7 +15,6 @@ use chereme_formats::eaf::eaf_convert::{
 };
 use chereme_formats::eaf::{decode_eaf, eaf_document_from_transcript, eaf_raw, patch_eaf, transcript_from_eaf};
 use chereme_formats::roles::{self, TierMapping};
-use chereme_motion::{RecordingInstant, TimeSpan};
 use chereme_sign::TierStereotype;
 use rusqlite::Connection;
 use serde_json::{Map, Value};
@@ -371,10 +370,7 @@ impl EafTierWriter<'_> {
         };
         TranscriptAnnotation {
             id: ids.take_annotation_id(row),
-            span: TimeSpan::span_between(
-                RecordingInstant::from_micros(row.start_us),
-                RecordingInstant::from_micros(row.end_us),
-            ),
+            span: row.annotation_row_span(),
             timing: source_tier_timing(tier.stereotype, &source),
             parent: row.parent_id.and_then(|id| self.places.get(&id).copied()),
             order: u32::try_from(row.position).unwrap_or(u32::MAX),

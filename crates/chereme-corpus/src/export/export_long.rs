@@ -1,13 +1,8 @@
 //! The long tables of Parquet, and an error in their place in a program that was built without Parquet.
 
-use std::io::Write;
-
-use rusqlite::Connection;
-
+use super::ExportJob;
 use super::ExportWhat;
-use super::export_gate::ExportGate;
 use crate::error::CorpusResult;
-use crate::progress::ProgressReceiver;
 
 /// The long tables of Parquet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,39 +34,24 @@ impl LongTable {
 /// # Errors
 /// Fails if `what` does not exist, rows are damaged, or `out` fails.
 #[cfg(feature = "parquet")]
-pub(super) fn write_long_table(
-    connection: &Connection,
-    what: &ExportWhat,
-    long: LongTable,
-    gate: &ExportGate,
-    out: &mut dyn Write,
-    notes: &mut Vec<String>,
-    progress: &mut ProgressReceiver<'_>,
-) -> CorpusResult<()> {
+pub(super) fn write_long_table(job: &mut ExportJob<'_, '_>, what: &ExportWhat, long: LongTable) -> CorpusResult<()> {
     use super::parquet;
     match long {
         LongTable::Tokens => {
-            let tokens = super::selected_export_tokens(connection, what)?;
-            parquet::write_token_parquet(
-                connection,
-                &tokens,
-                gate.export_audience().consent_audience(),
-                out,
-                notes,
-                progress,
-            )
+            let tokens = super::selected_export_tokens(job.connection, what)?;
+            parquet::write_token_parquet(job, &tokens)
         }
         LongTable::Components => {
-            let tokens = super::selected_export_tokens(connection, what)?;
-            parquet::write_component_parquet(connection, &tokens, out, progress)
+            let tokens = super::selected_export_tokens(job.connection, what)?;
+            parquet::write_component_parquet(job, &tokens)
         }
         LongTable::Annotations => {
-            let stretches = select_long_stretches(connection, what, notes)?;
-            parquet::write_annotation_parquet(connection, &stretches, out, progress)
+            let stretches = select_long_stretches(job, what)?;
+            parquet::write_annotation_parquet(job, &stretches)
         }
         LongTable::Frames => {
-            let stretches = select_long_stretches(connection, what, notes)?;
-            parquet::write_frame_parquet(connection, &stretches, out, progress)
+            let stretches = select_long_stretches(job, what)?;
+            parquet::write_frame_parquet(job, &stretches)
         }
     }
 }
@@ -80,10 +60,10 @@ pub(super) fn write_long_table(
 /// frames.
 #[cfg(feature = "parquet")]
 fn select_long_stretches(
-    connection: &Connection,
+    job: &mut ExportJob<'_, '_>,
     what: &ExportWhat,
-    notes: &mut Vec<String>,
 ) -> CorpusResult<Vec<crate::address::RecordingStretch>> {
+    let connection = job.connection;
     use crate::address::{self, CorpusAddress, RowName};
     use crate::db::{signs, stored_recordings};
     use crate::words::format_noun_count;
@@ -100,7 +80,7 @@ fn select_long_stretches(
         ExportWhat::Several(addresses) => {
             for address in addresses {
                 let one = ExportWhat::Address(address.clone());
-                several.extend(select_long_stretches(connection, &one, notes)?);
+                several.extend(select_long_stretches(job, &one)?);
             }
             return Ok(several);
         }
@@ -116,7 +96,7 @@ fn select_long_stretches(
     }
     if entries > 0 {
         let entries = format_noun_count(entries, "tokens");
-        notes.push(format!("{entries} of the lexicon are in no recording"));
+        job.notes.push(format!("{entries} of the lexicon are in no recording"));
     }
     Ok(several)
 }
@@ -126,15 +106,7 @@ fn select_long_stretches(
 /// # Errors
 /// Always fails; the error names the formats that can be written instead.
 #[cfg(not(feature = "parquet"))]
-pub(super) fn write_long_table(
-    _connection: &Connection,
-    _what: &ExportWhat,
-    long: LongTable,
-    _gate: &ExportGate,
-    _out: &mut dyn Write,
-    _notes: &mut Vec<String>,
-    _progress: &mut ProgressReceiver<'_>,
-) -> CorpusResult<()> {
+pub(super) fn write_long_table(_job: &mut ExportJob<'_, '_>, _what: &ExportWhat, long: LongTable) -> CorpusResult<()> {
     let instead = match long {
         LongTable::Tokens | LongTable::Components => "write .csv, which pandas, polars and DuckDB read, too",
         LongTable::Annotations => "export a tier as .csv, or a folder of everything",

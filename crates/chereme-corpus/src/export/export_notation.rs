@@ -1,12 +1,12 @@
 //! Exports notated tokens as SiGML and as HamNoSys text.
 
 use std::collections::BTreeMap;
-use std::io::Write;
 
 use chereme_formats::{hns, sigml};
 use chereme_sign::hamnosys::NotatedSign;
 use rusqlite::Connection;
 
+use super::ExportJob;
 use crate::db::signs::MAX_ROWS_PER_QUERY;
 use crate::error::{CorpusError, CorpusResult};
 use crate::notation;
@@ -26,14 +26,11 @@ pub(super) enum NotationFileFormat {
 
 /// Writes the notation of tokens; a note gives the number of tokens without notation.
 pub(super) fn write_token_notations(
-    connection: &Connection,
+    job: &mut ExportJob<'_, '_>,
     tokens: &[i64],
     form: NotationFileFormat,
-    out: &mut dyn Write,
-    notes: &mut Vec<String>,
-    progress: &mut ProgressReceiver<'_>,
 ) -> CorpusResult<()> {
-    let signs = load_notated_tokens(connection, tokens, progress)?;
+    let signs = load_notated_tokens(job.connection, tokens, job.progress)?;
     let without = tokens.len() - signs.len();
     if signs.is_empty() {
         return Err(CorpusError::from_wrong_message("none of these tokens has a notation")
@@ -41,7 +38,7 @@ pub(super) fn write_token_notations(
             .into_lacking_content());
     }
     if without > 0 {
-        notes.push(format!(
+        job.notes.push(format!(
             "{} without notation: left out",
             format_noun_count(without as u64, "tokens")
         ));
@@ -51,8 +48,9 @@ pub(super) fn write_token_notations(
         NotationFileFormat::Symbols => sigml::write_symbols(&signs),
         NotationFileFormat::Text => hns::write_hns(&signs),
     };
-    note_lost(&signs, &lost, notes);
-    out.write_all(&bytes)
+    note_lost(&signs, &lost, job.notes);
+    job.out
+        .write_all(&bytes)
         .map_err(|error| CorpusError::from_wrong_message(format!("the file cannot be written: {error}")))
 }
 

@@ -1,13 +1,12 @@
 //! Exports translations or glosses as subtitles: one language a file.
 
-use std::io::Write;
-
 use chereme_formats::eaf::AnnotationTranscript;
 use chereme_formats::eaf::eaf_convert::TranscriptTier;
 use chereme_formats::subtitles::{self, SubtitleFormat};
 use chereme_sign::TierRole;
 use rusqlite::Connection;
 
+use super::ExportJob;
 use super::foreign::write_export_bytes;
 use crate::db::stored_recordings::RecordingRow;
 use crate::db::stored_tiers::{self, TierRow};
@@ -56,13 +55,11 @@ fn go_together(one: &TierRow, other: &TierRow) -> bool {
 /// # Errors
 /// Fails if the recording has neither translations nor glosses, its rows are damaged, or writing fails.
 pub(super) fn first_group(
-    connection: &Connection,
+    job: &mut ExportJob<'_, '_>,
     recording: &RecordingRow,
     form: SubtitleFormat,
-    out: &mut dyn Write,
-    notes: &mut Vec<String>,
 ) -> CorpusResult<()> {
-    let groups = subtitle_tier_groups(connection, recording.id)?;
+    let groups = subtitle_tier_groups(job.connection, recording.id)?;
     let name = &recording.name;
     let Some((first, others)) = groups.split_first() else {
         return Err(CorpusError::from_wrong_message(format!(
@@ -74,25 +71,21 @@ pub(super) fn first_group(
     if !others.is_empty() {
         let listed = |row: &TierRow| format!("{:?} (tier:{})", row.name, row.id);
         let list = |rows: &mut dyn Iterator<Item = &TierRow>| rows.map(listed).collect::<Vec<_>>().join(", ");
-        notes.push(format!(
+        job.notes.push(format!(
             "the subtitles hold the tier {}; not written: {}, each of which can be exported by its number",
             list(&mut first.iter()),
             list(&mut others.iter().flatten())
         ));
     }
-    write_recording_subtitles(connection, recording, first, form, out)
+    write_recording_subtitles(job, recording, first, form)
 }
 
 /// Writes one tier of any role.
 ///
 /// # Errors
 /// Fails if there is no such tier, it has no annotations, its rows are damaged, or writing fails.
-pub(super) fn write_tier_subtitles(
-    connection: &Connection,
-    tier: i64,
-    form: SubtitleFormat,
-    out: &mut dyn Write,
-) -> CorpusResult<()> {
+pub(super) fn write_tier_subtitles(job: &mut ExportJob<'_, '_>, tier: i64, form: SubtitleFormat) -> CorpusResult<()> {
+    let connection = job.connection;
     let row = stored_tiers::load_tier_row(connection, tier)?;
     if stored_tiers::load_tier_annotation_rows(connection, row.id)?.is_empty() {
         return Err(
@@ -102,18 +95,17 @@ pub(super) fn write_tier_subtitles(
         );
     }
     let recording = crate::db::stored_recordings::load_recording_row(connection, row.recording_id)?;
-    write_recording_subtitles(connection, &recording, &[row], form, out)
+    write_recording_subtitles(job, &recording, &[row], form)
 }
 
 /// Writes tiers of a recording.
 pub(super) fn write_recording_subtitles(
-    connection: &Connection,
+    job: &mut ExportJob<'_, '_>,
     recording: &RecordingRow,
     rows: &[TierRow],
     form: SubtitleFormat,
-    out: &mut dyn Write,
 ) -> CorpusResult<()> {
-    let transcript = super::export_eaf::tiers_of(connection, recording)?;
+    let transcript = super::export_eaf::tiers_of(job.connection, recording)?;
     let is_chosen = |tier: &TranscriptTier| rows.iter().any(|row| row.name == tier.name);
     let tiers = transcript.tiers.into_iter().filter(is_chosen);
     let shown = AnnotationTranscript {
@@ -121,5 +113,5 @@ pub(super) fn write_recording_subtitles(
         tiers: tiers.map(|tier| TranscriptTier { parent: None, ..tier }).collect(),
         ..AnnotationTranscript::default()
     };
-    write_export_bytes(out, subtitles::write_subtitles(&shown, form).as_bytes())
+    write_export_bytes(job.out, subtitles::write_subtitles(&shown, form).as_bytes())
 }

@@ -11,8 +11,9 @@ use chereme_formats::{TooFar, c3d, gltf, textgrid, trc, xra};
 use chereme_motion::{MarkerSpace, RecordingInstant, TimeSpan};
 use rusqlite::Connection;
 
+use super::ExportJob;
+use super::glb_figure;
 use super::movement_form::{MovementForm, ShapedMovement};
-use super::{ExportGate, glb_figure};
 use crate::address::RecordingStretch;
 use crate::curves::face_captured;
 use crate::db::stored_recordings::RecordingRow;
@@ -34,33 +35,29 @@ pub(super) enum GlbLook {
 /// # Errors
 /// Fails if the recording has no movement, or writing fails.
 pub(super) fn write_glb_stretch(
-    connection: &Connection,
+    job: &mut ExportJob<'_, '_>,
     stretch: &RecordingStretch,
     (look, form): (GlbLook, &MovementForm),
-    gate: &ExportGate,
-    out: &mut dyn Write,
-    notes: &mut Vec<String>,
 ) -> CorpusResult<usize> {
-    let track = MotionTrack::open_motion_track(connection, stretch.recording.id)?;
+    let track = MotionTrack::open_motion_track(job.connection, stretch.recording.id)?;
     let frames = track.stretch_frames(stretch);
-    let movement = form.load_shaped_movement(connection, &track, frames.clone(), notes)?;
-    let about = describe_gltf_stretch(connection, stretch, gate, on_the_clock(&track, &frames))?;
+    let movement = form.load_shaped_movement(job.connection, &track, frames.clone(), job.notes)?;
+    let about = describe_gltf_stretch(job, stretch, on_the_clock(&track, &frames))?;
     let ShapedMovement { clip, anatomy, curves } = &movement;
     let figure = match look {
         GlbLook::Person => glb_figure::visible_figure(clip, anatomy, curves),
         GlbLook::Bones => None,
     };
     let bytes = gltf::write_glb_with_figure(clip, &about, figure.as_ref()).map_err(|error| too_far(&error))?;
-    write_export_bytes(out, &bytes)?;
+    write_export_bytes(job.out, &bytes)?;
     Ok(about.notes.len())
 }
 
 /// Returns the names, the licence and the annotations of a stretch: a sign is named by its gloss, and its scene by the
 /// recording and the time.
 fn describe_gltf_stretch(
-    connection: &Connection,
+    job: &ExportJob<'_, '_>,
     stretch: &RecordingStretch,
-    gate: &ExportGate,
     span: TimeSpan,
 ) -> CorpusResult<gltf::GlbDescription> {
     let recording = &stretch.recording;
@@ -69,8 +66,8 @@ fn describe_gltf_stretch(
     Ok(gltf::GlbDescription {
         name: gloss.unwrap_or(&recording.name).clone(),
         source: token.map(|_| format!("{} {}", recording.name, span.span_start_instant())),
-        licence: gate.terms_in_file(recording),
-        notes: gltf_notes_in_span(connection, recording.id, span)?,
+        licence: job.gate.terms_in_file(recording),
+        notes: gltf_notes_in_span(job.connection, recording.id, span)?,
     })
 }
 
@@ -94,14 +91,11 @@ fn on_the_clock(track: &MotionTrack, frames: &Range<usize>) -> TimeSpan {
 /// # Errors
 /// Fails if the recording has no movement of a humanoid, or writing fails.
 pub(super) fn write_vrma_stretch(
-    connection: &Connection,
+    job: &mut ExportJob<'_, '_>,
     stretch: &RecordingStretch,
     form: &MovementForm,
-    gate: &ExportGate,
-    out: &mut dyn Write,
-    notes_of_file: &mut Vec<String>,
 ) -> CorpusResult<()> {
-    let track = MotionTrack::open_motion_track(connection, stretch.recording.id)?;
+    let track = MotionTrack::open_motion_track(job.connection, stretch.recording.id)?;
     let frames = track.stretch_frames(stretch);
     // An animation without frames is no valid file.
     if frames.is_empty() {
@@ -113,7 +107,7 @@ pub(super) fn write_vrma_stretch(
         );
     }
     let span = on_the_clock(&track, &frames);
-    let movement = form.load_shaped_movement(connection, &track, frames, notes_of_file)?;
+    let movement = form.load_shaped_movement(job.connection, &track, frames, job.notes)?;
     let ShapedMovement { clip, anatomy, curves } = movement;
     let mut face = AvatarFace::avatar_face_from_faces(&chereme_compose::faces_from_curves(&curves));
     let has = |face: &AvatarFace, name: &str| face.expressions.iter().any(|expression| expression.name == name);
@@ -131,26 +125,26 @@ pub(super) fn write_vrma_stretch(
         .filter(|name| !vrma::is_preset(name) && !is_shown_by_presets(name))
         .collect();
     if !custom.is_empty() {
-        notes_of_file.push(format!(
+        job.notes.push(format!(
             "expressions that VRM does not define move only avatars that have them by name: {}",
             custom.join(", ")
         ));
     }
     let missing = vrma::missing_vrm_bones(&anatomy);
     if !missing.is_empty() {
-        notes_of_file.push(format!(
+        job.notes.push(format!(
             "the body lacks bones that VRM requires, so some programs refuse the file: {}",
             missing.join(", ")
         ));
     }
-    let about = describe_gltf_stretch(connection, stretch, gate, span)?;
+    let about = describe_gltf_stretch(job, stretch, span)?;
     let bytes = vrma::write_vrma(&clip, &anatomy, &face, &about).map_err(|error| match error {
         vrma::VrmaWriteError::TooFar(error) => too_far(&error),
         vrma::VrmaWriteError::NoAvatar(reason) => CorpusError::from_wrong_message(reason)
             .with_command_advice("say which joint is what with `chereme track`, or write .glb")
             .into_lacking_content(),
     })?;
-    write_export_bytes(out, &bytes)
+    write_export_bytes(job.out, &bytes)
 }
 
 /// Returns whether a curve of a face moves eyelids, eyes or lips, which presets of VRM and its gaze show.
@@ -176,15 +170,13 @@ pub(super) enum MarkerFileFormat {
 /// # Errors
 /// Fails if the recording has no markers, if these are not positions in a room, or if the file cannot be written.
 pub(super) fn write_marker_file(
-    connection: &Connection,
+    job: &mut ExportJob<'_, '_>,
     stretch: &RecordingStretch,
     form: MarkerFileFormat,
-    out: &mut dyn Write,
-    notes: &mut Vec<String>,
 ) -> CorpusResult<()> {
-    let row = first_track_of_kind(connection, stretch, TrackKind::Markers, notes)?;
+    let row = first_track_of_kind(job, stretch, TrackKind::Markers)?;
     let span = stretch.token.as_ref().map(|_| stretch.span);
-    let markers = track::track_read::read_track_markers(connection, &row, span)?;
+    let markers = track::track_read::read_track_markers(job.connection, &row, span)?;
     // These formats cannot begin before the first frame of their clock.
     let offset = RecordingInstant::from_micros(row.offset_us.max(0));
     // A C3D file has one rate for all frames, while TRC has a time for each.
@@ -199,11 +191,11 @@ pub(super) fn write_marker_file(
         }
     };
     if let MarkerFileFormat::C3d = form {
-        let all = stored_tracks::load_track_rows(connection, stretch.recording.id)?;
+        let all = stored_tracks::load_track_rows(job.connection, stretch.recording.id)?;
         let curves = all.into_iter().filter(|track| track.kind == TrackKind::Curves);
         let names: Vec<String> = curves.map(|track| track.name).collect();
         if !names.is_empty() {
-            notes.push(format!(
+            job.notes.push(format!(
                 "the file holds markers alone, without the curves {}; .curves.csv holds those",
                 names.join(", ")
             ));
@@ -215,7 +207,7 @@ pub(super) fn write_marker_file(
             .map_err(fault)?
             .into_bytes(),
     };
-    write_export_bytes(out, &bytes)
+    write_export_bytes(job.out, &bytes)
 }
 
 /// Writes the curves or markers of a stretch as a table with one row for each frame.
@@ -223,32 +215,25 @@ pub(super) fn write_marker_file(
 /// # Errors
 /// Fails if the recording has neither, or writing fails.
 pub(super) fn write_number_table(
-    connection: &Connection,
+    job: &mut ExportJob<'_, '_>,
     stretch: &RecordingStretch,
     kind: TrackKind,
     delimiter: u8,
-    out: &mut dyn Write,
-    notes: &mut Vec<String>,
 ) -> CorpusResult<()> {
-    let row = first_track_of_kind(connection, stretch, kind, notes)?;
+    let row = first_track_of_kind(job, stretch, kind)?;
     let span = stretch.token.as_ref().map(|_| stretch.span);
-    let track = track::track_read::read_stored_track(connection, &row, span)?;
-    track::track_table::write_track_table(&track, delimiter, out)
+    let track = track::track_read::read_stored_track(job.connection, &row, span)?;
+    track::track_table::write_track_table(&track, delimiter, job.out)
 }
 
 /// Writes the captured face of a stretch as Live Link Face does, with the time of day of its frames.
 ///
 /// # Errors
 /// Fails if the recording has no face in ARKit's shapes, or writing fails.
-pub(super) fn write_live_link_file(
-    connection: &Connection,
-    stretch: &RecordingStretch,
-    out: &mut dyn Write,
-    notes: &mut Vec<String>,
-) -> CorpusResult<()> {
+pub(super) fn write_live_link_file(job: &mut ExportJob<'_, '_>, stretch: &RecordingStretch) -> CorpusResult<()> {
     let span = stretch.token.as_ref().map(|_| stretch.span);
     let has_shapes = FaceSystem::has_live_link_shapes;
-    let channels = face_captured::load_face_channels(connection, stretch.recording.id, span, has_shapes)?;
+    let channels = face_captured::load_face_channels(job.connection, stretch.recording.id, span, has_shapes)?;
     let written = channels.and_then(|channels| {
         let time_of_day = channels.row.clock_us;
         let begin = RecordingInstant::from_micros(time_of_day.unwrap_or(channels.row.offset_us));
@@ -264,10 +249,11 @@ pub(super) fn write_live_link_file(
         .into_lacking_content());
     };
     if !has_time_of_day {
-        notes.push("the time of day is not known: timecodes count from the start of the recording".to_owned());
+        job.notes
+            .push("the time of day is not known: timecodes count from the start of the recording".to_owned());
     }
-    notes.extend(findings.into_iter().map(|finding| finding.message));
-    write_export_bytes(out, text.as_bytes())
+    job.notes.extend(findings.into_iter().map(|finding| finding.message));
+    write_export_bytes(job.out, text.as_bytes())
 }
 
 /// Reports whether a recording has a track of that kind.
@@ -279,12 +265,11 @@ pub(super) fn has_track_kind(connection: &Connection, recording: i64, kind: Trac
 
 /// Returns the first track of a kind; adds a note that names the others.
 fn first_track_of_kind(
-    connection: &Connection,
+    job: &mut ExportJob<'_, '_>,
     stretch: &RecordingStretch,
     kind: TrackKind,
-    notes: &mut Vec<String>,
 ) -> CorpusResult<stored_tracks::TrackRow> {
-    let mut all = stored_tracks::load_track_rows(connection, stretch.recording.id)?;
+    let mut all = stored_tracks::load_track_rows(job.connection, stretch.recording.id)?;
     all.retain(|row| row.kind == kind);
     let names: Vec<String> = all.iter().skip(1).map(|row| format!("{:?}", row.name)).collect();
     let first = all.into_iter().next().ok_or_else(|| {
@@ -297,7 +282,7 @@ fn first_track_of_kind(
         .into_lacking_content()
     })?;
     if !names.is_empty() {
-        notes.push(format!(
+        job.notes.push(format!(
             "the file holds the track {:?}; not written: {}",
             first.name,
             names.join(", ")
@@ -310,9 +295,9 @@ fn first_track_of_kind(
 ///
 /// # Errors
 /// Fails if the rows or files of the recording are damaged, or writing fails.
-pub(super) fn elan_table(connection: &Connection, recording: &RecordingRow, out: &mut dyn Write) -> CorpusResult<()> {
-    let transcript = super::export_eaf::tiers_of(connection, recording)?;
-    write_export_bytes(out, annotations::write_elan_table(&transcript).as_bytes())
+pub(super) fn elan_table(job: &mut ExportJob<'_, '_>, recording: &RecordingRow) -> CorpusResult<()> {
+    let transcript = super::export_eaf::tiers_of(job.connection, recording)?;
+    write_export_bytes(job.out, annotations::write_elan_table(&transcript).as_bytes())
 }
 
 /// Returns the annotations within a span, cut to it, in seconds from its start.
@@ -324,10 +309,7 @@ fn gltf_notes_in_span(
     let mut notes = Vec::new();
     for tier in stored_tiers::load_tier_rows(connection, recording)? {
         for row in stored_tiers::load_tier_annotation_rows(connection, tier.id)? {
-            let row_span = TimeSpan::span_between(
-                RecordingInstant::from_micros(row.start_us),
-                RecordingInstant::from_micros(row.end_us),
-            );
+            let row_span = row.annotation_row_span();
             let Some(inside) = row_span.span_intersection(span).filter(|inside| !inside.is_empty()) else {
                 continue;
             };
@@ -347,30 +329,21 @@ fn gltf_notes_in_span(
 ///
 /// # Errors
 /// Fails if the rows or files of the recording are damaged, or writing fails.
-pub(super) fn text_grid(
-    connection: &Connection,
-    recording: &RecordingRow,
-    out: &mut dyn Write,
-    notes: &mut Vec<String>,
-) -> CorpusResult<()> {
-    let transcript = super::export_eaf::tiers_of(connection, recording)?;
+pub(super) fn text_grid(job: &mut ExportJob<'_, '_>, recording: &RecordingRow) -> CorpusResult<()> {
+    let transcript = super::export_eaf::tiers_of(job.connection, recording)?;
     let end = RecordingInstant::from_micros(recording.duration_us);
     let (text, findings) = textgrid::write_textgrid(&transcript, textgrid::TextGridForm::Long, end);
-    notes.extend(findings.into_iter().map(|finding| finding.message));
-    write_export_bytes(out, text.as_bytes())
+    job.notes.extend(findings.into_iter().map(|finding| finding.message));
+    write_export_bytes(job.out, text.as_bytes())
 }
 
 /// Writes the tiers of a recording as SPPAS reads them.
 ///
 /// # Errors
 /// Fails if the rows or files of the recording are damaged, or writing fails.
-pub(super) fn write_xra_file(
-    connection: &Connection,
-    recording: &RecordingRow,
-    out: &mut dyn Write,
-) -> CorpusResult<()> {
-    let transcript = super::export_eaf::tiers_of(connection, recording)?;
-    write_export_bytes(out, xra::write_xra(&transcript, &recording.name).as_bytes())
+pub(super) fn write_xra_file(job: &mut ExportJob<'_, '_>, recording: &RecordingRow) -> CorpusResult<()> {
+    let transcript = super::export_eaf::tiers_of(job.connection, recording)?;
+    write_export_bytes(job.out, xra::write_xra(&transcript, &recording.name).as_bytes())
 }
 
 /// Writes bytes.

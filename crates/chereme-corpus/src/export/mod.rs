@@ -215,8 +215,14 @@ impl Corpus {
                 let passed = gate.pass_export(&reading, what, format)?;
                 report.withheld = passed.withheld;
                 let file = write_whole_file(to, options.force, &mut |out| {
-                    let notes = &mut report.notes;
-                    write_file(&reading, &passed.what, format, out, notes, &gate, progress)
+                    let mut job = ExportJob {
+                        connection: &reading,
+                        gate: &gate,
+                        out,
+                        notes: &mut report.notes,
+                        progress,
+                    };
+                    write_file(&mut job, &passed.what, format)
                 })?;
                 report.files.push(file);
             }
@@ -245,7 +251,14 @@ impl Corpus {
         let mut notes = Vec::new();
         let gate = ExportGate::open_export_gate(&reading, what, options.audience)?;
         let passed = gate.pass_export(&reading, what, format)?;
-        write_file(&reading, &passed.what, format, out, &mut notes, &gate, progress)?;
+        let mut job = ExportJob {
+            connection: &reading,
+            gate: &gate,
+            out,
+            notes: &mut notes,
+            progress,
+        };
+        write_file(&mut job, &passed.what, format)?;
         notes.extend(gate.withheld_notes(&passed.withheld));
         notes.extend(gate.notes);
         Ok(notes)
@@ -285,6 +298,16 @@ fn unknown_format_error(to: &Path, extension: &str) -> CorpusError {
         ),
         _ => no_format(to, &format!("{extension:?} is no format")),
     }
+}
+
+/// What the writer of a file reads and writes.
+struct ExportJob<'a, 'p> {
+    connection: &'a Connection,
+    gate: &'a ExportGate,
+    out: &'a mut dyn Write,
+    /// Notes for the reader of the file.
+    notes: &'a mut Vec<String>,
+    progress: &'a mut ProgressReceiver<'p>,
 }
 
 /// A format of single files.
@@ -402,15 +425,8 @@ fn inner_extension(to: &Path) -> String {
 const GLB_MARKERS_NOTE: &str = "annotations become markers of Blender's timeline by `exec(bpy.context.scene[\"chereme_markers\"])` \
                        in its Python console after the import";
 
-fn write_file(
-    connection: &Connection,
-    what: &ExportWhat,
-    format: SingleFileFormat<'_>,
-    out: &mut dyn Write,
-    notes: &mut Vec<String>,
-    gate: &ExportGate,
-    progress: &mut ProgressReceiver<'_>,
-) -> CorpusResult<()> {
+fn write_file(job: &mut ExportJob<'_, '_>, what: &ExportWhat, format: SingleFileFormat<'_>) -> CorpusResult<()> {
+    let connection = job.connection;
     // Damaged rows must not go out unnoticed into files of others.
     verify(connection, what, format)?;
     let tokens = || selected_export_tokens(connection, what);
@@ -419,7 +435,7 @@ fn write_file(
         (SingleFileFormat::Json, ExportWhat::Inventory(name)) => {
             let text = values::find_stored_inventory(connection, name)?.inventory.to_json();
             let fault = |error: io::Error| CorpusError::from_wrong_message(error.to_string());
-            out.write_all(text.as_bytes()).map_err(fault)
+            job.out.write_all(text.as_bytes()).map_err(fault)
         }
         (SingleFileFormat::Json, _) => Err(CorpusError::from_wrong_message("only an inventory is written as JSON")
             .with_advice(
@@ -430,92 +446,74 @@ fn write_file(
         ))
         .with_advice("end the name of the file in .json")),
         (SingleFileFormat::Table(form), ExportWhat::Address(CorpusAddress::Tier(tier))) => {
-            csv::write_annotation_csv(connection, *tier, form, out)
+            csv::write_annotation_csv(job, *tier, form)
         }
         (SingleFileFormat::Table(form), ExportWhat::Address(CorpusAddress::Recording(_)))
             if let Ok(stretch) = stretch()
                 && tokens()?.is_empty()
                 && foreign::has_track_kind(connection, stretch.recording.id, TrackKind::Curves)? =>
         {
-            notes.push("the recording has no tokens: the table holds its curves".to_owned());
-            foreign::write_number_table(connection, &stretch, TrackKind::Curves, form.delimiter, out, notes)
+            job.notes
+                .push("the recording has no tokens: the table holds its curves".to_owned());
+            foreign::write_number_table(job, &stretch, TrackKind::Curves, form.delimiter)
         }
         (SingleFileFormat::Table(form), _) => {
             let form = TableForm {
-                audience: gate.export_audience().consent_audience(),
+                audience: job.gate.export_audience().consent_audience(),
                 ..form
             };
-            csv::write_token_csv(connection, &tokens()?, form, out, notes, progress)
+            csv::write_token_csv(job, &tokens()?, form)
         }
-        (SingleFileFormat::Curves(delimiter), _) => write_face_curves(connection, &stretch()?, delimiter, out, notes),
-        (SingleFileFormat::LiveLink, _) => foreign::write_live_link_file(connection, &stretch()?, out, notes),
+        (SingleFileFormat::Curves(delimiter), _) => write_face_curves(job, &stretch()?, delimiter),
+        (SingleFileFormat::LiveLink, _) => foreign::write_live_link_file(job, &stretch()?),
         (SingleFileFormat::Eaf, _) => {
             let stretch = stretch()?;
             if stretch.token.is_some() {
                 let name = &stretch.recording.name;
-                notes.push(format!("the file holds all of the recording {name:?}"));
+                job.notes.push(format!("the file holds all of the recording {name:?}"));
             }
-            export_eaf::write_recording_eaf(connection, &stretch.recording, out)
+            export_eaf::write_recording_eaf(connection, &stretch.recording, job.out)
         }
         (SingleFileFormat::Bvh(form), _) => {
             let stretch = stretch()?;
-            notes.extend(export_bvh::late_start(connection, &stretch)?);
+            job.notes.extend(export_bvh::late_start(connection, &stretch)?);
             match *form == MovementForm::AS_CAPTURED {
-                true => export_bvh::write_bvh_stretch(connection, &stretch, out, progress)?,
-                false => export_bvh::write_shaped_bvh(connection, &stretch, form, out, notes)?,
+                true => export_bvh::write_bvh_stretch(connection, &stretch, job.out, job.progress)?,
+                false => export_bvh::write_shaped_bvh(job, &stretch, form)?,
             };
             Ok(())
         }
         (SingleFileFormat::Glb(look, form), _) => {
-            if foreign::write_glb_stretch(connection, &stretch()?, (look, form), gate, out, notes)? > 0 {
-                notes.push(GLB_MARKERS_NOTE.to_owned());
+            if foreign::write_glb_stretch(job, &stretch()?, (look, form))? > 0 {
+                job.notes.push(GLB_MARKERS_NOTE.to_owned());
             }
             Ok(())
         }
-        (SingleFileFormat::Parquet(long), _) => {
-            export_long::write_long_table(connection, what, long, gate, out, notes, progress)
-        }
-        (SingleFileFormat::Vrma(form), _) => {
-            foreign::write_vrma_stretch(connection, &stretch()?, form, gate, out, notes)
-        }
-        (SingleFileFormat::Points(form), _) => foreign::write_marker_file(connection, &stretch()?, form, out, notes),
+        (SingleFileFormat::Parquet(long), _) => export_long::write_long_table(job, what, long),
+        (SingleFileFormat::Vrma(form), _) => foreign::write_vrma_stretch(job, &stretch()?, form),
+        (SingleFileFormat::Points(form), _) => foreign::write_marker_file(job, &stretch()?, form),
         (SingleFileFormat::Markers(delimiter), _) => {
-            foreign::write_number_table(connection, &stretch()?, TrackKind::Markers, delimiter, out, notes)
+            foreign::write_number_table(job, &stretch()?, TrackKind::Markers, delimiter)
         }
-        (SingleFileFormat::ElanTable, _) => {
-            foreign::elan_table(connection, &with_tiers(connection, stretch()?)?.recording, out)
-        }
-        (SingleFileFormat::TextGrid, _) => {
-            foreign::text_grid(connection, &with_tiers(connection, stretch()?)?.recording, out, notes)
-        }
-        (SingleFileFormat::Xra, _) => {
-            foreign::write_xra_file(connection, &with_tiers(connection, stretch()?)?.recording, out)
-        }
+        (SingleFileFormat::ElanTable, _) => foreign::elan_table(job, &with_tiers(connection, stretch()?)?.recording),
+        (SingleFileFormat::TextGrid, _) => foreign::text_grid(job, &with_tiers(connection, stretch()?)?.recording),
+        (SingleFileFormat::Xra, _) => foreign::write_xra_file(job, &with_tiers(connection, stretch()?)?.recording),
         (SingleFileFormat::Subtitles(form), ExportWhat::Address(CorpusAddress::Tier(tier))) => {
-            export_subtitles::write_tier_subtitles(connection, *tier, form, out)
+            export_subtitles::write_tier_subtitles(job, *tier, form)
         }
-        (SingleFileFormat::Subtitles(form), _) => {
-            export_subtitles::first_group(connection, &stretch()?.recording, form, out, notes)
-        }
-        (SingleFileFormat::Notation(form), _) => {
-            export_notation::write_token_notations(connection, &tokens()?, form, out, notes, progress)
-        }
+        (SingleFileFormat::Subtitles(form), _) => export_subtitles::first_group(job, &stretch()?.recording, form),
+        (SingleFileFormat::Notation(form), _) => export_notation::write_token_notations(job, &tokens()?, form),
     }
 }
 
 /// Writes the face of a recording's body as a table; without one, a track of curves as it was imported.
-fn write_face_curves(
-    connection: &Connection,
-    stretch: &RecordingStretch,
-    delimiter: u8,
-    out: &mut dyn Write,
-    notes: &mut Vec<String>,
-) -> CorpusResult<()> {
+fn write_face_curves(job: &mut ExportJob<'_, '_>, stretch: &RecordingStretch, delimiter: u8) -> CorpusResult<()> {
+    let connection = job.connection;
     let moves = stored_recordings::body_track(connection, stretch.recording.id)?.is_some();
     if moves && curves::has_some(connection, stretch)? {
-        return curves::write_table(connection, stretch, delimiter, out);
+        return curves::write_table(connection, stretch, delimiter, job.out);
     }
-    foreign::write_number_table(connection, stretch, TrackKind::Curves, delimiter, out, notes)
+    foreign::write_number_table(job, stretch, TrackKind::Curves, delimiter)
 }
 
 /// Returns a note on each row that is not as it was stored: what can be read of a damaged corpus can be saved whole.

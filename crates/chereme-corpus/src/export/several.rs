@@ -2,11 +2,11 @@
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::io::Write;
 use std::path::Path;
 
 use rusqlite::Connection;
 
+use super::ExportJob;
 use super::enriched::file_name;
 use super::{
     ExportGate, ExportOptions, ExportReport, ExportWhat, LeftOutExport, LongTable, SingleFileFormat, UnnamedExportFile,
@@ -115,7 +115,14 @@ fn fill_export_folder(
         let name = file_name(&part.name, &mut taken_names);
         let path = to.join(format!("{name}.{extension}"));
         let file = UnnamedExportFile::write_unnamed_file(&path, options.force, &mut |out| {
-            part.write_folder_part(connection, format, out, &mut notes, gate, progress)
+            let mut job = ExportJob {
+                connection,
+                gate,
+                out,
+                notes: &mut notes,
+                progress,
+            };
+            part.write_folder_part(&mut job, format)
         });
         match file {
             Ok(file) => {
@@ -240,24 +247,16 @@ impl FolderPart {
         })
     }
 
-    fn write_folder_part(
-        &self,
-        connection: &Connection,
-        format: SingleFileFormat<'_>,
-        out: &mut dyn Write,
-        notes: &mut Vec<String>,
-        gate: &ExportGate,
-        progress: &mut ProgressReceiver<'_>,
-    ) -> CorpusResult<()> {
+    fn write_folder_part(&self, job: &mut ExportJob<'_, '_>, format: SingleFileFormat<'_>) -> CorpusResult<()> {
         match (&self.content, format) {
             (FolderPartContent::Subtitles(recording, rows), SingleFileFormat::Subtitles(form)) => {
-                let recording = stored_recordings::load_recording_row(connection, *recording)?;
-                export_subtitles::write_recording_subtitles(connection, &recording, rows, form, out)
+                let recording = stored_recordings::load_recording_row(job.connection, *recording)?;
+                export_subtitles::write_recording_subtitles(job, &recording, rows, form)
             }
             (FolderPartContent::Subtitles(..), _) => Ok(()),
             (FolderPartContent::What(what), format) => {
-                self.holds_rows(connection, what, format)?;
-                write_file(connection, what, format, out, notes, gate, progress)
+                self.holds_rows(job.connection, what, format)?;
+                write_file(job, what, format)
             }
         }
     }

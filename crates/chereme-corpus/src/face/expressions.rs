@@ -72,13 +72,6 @@ fn is_function_tier(row: &TierRow, named: Option<&str>) -> bool {
     }
 }
 
-fn span_of(row: &AnnotationRow) -> TimeSpan {
-    TimeSpan::span_between(
-        RecordingInstant::from_micros(row.start_us),
-        RecordingInstant::from_micros(row.end_us),
-    )
-}
-
 fn span_middle(span: TimeSpan) -> RecordingInstant {
     span.span_start_instant().shifted_instant(span.span_micros() / 2)
 }
@@ -103,7 +96,7 @@ pub(crate) fn load_recording_expressions(
             if !annotation.is_filled() || !wanted {
                 continue;
             }
-            let span = span_of(&annotation);
+            let span = annotation.annotation_row_span();
             let same = |expression: &FaceExpression| {
                 expression.function == annotation_function
                     && expression.milestones.expression_body_span().is_overlapping_span(span)
@@ -153,11 +146,11 @@ impl SignerSigns {
             };
             let filled_rows = rows.iter().filter(|annotation| annotation.is_filled());
             if row.role == TierRole::Translation {
-                utterances.extend(filled_rows.map(span_of));
+                utterances.extend(filled_rows.map(AnnotationRow::annotation_row_span));
                 continue;
             }
             let mut signs: Vec<(TimeSpan, String)> = filled_rows
-                .map(|annotation| (span_of(annotation), annotation.value.trim().to_owned()))
+                .map(|annotation| (annotation.annotation_row_span(), annotation.value.trim().to_owned()))
                 .collect();
             signs.sort_by_key(|(span, _)| (span.span_start_instant(), span.span_end_instant()));
             let same = participant.is_none() || row.participant.as_deref() == participant;
@@ -191,7 +184,7 @@ impl SignerSigns {
         function: ExpressionFunction,
         of: &AnnotationRow,
     ) -> FaceExpression {
-        let span = span_of(of);
+        let span = of.annotation_row_span();
         // The signs of a neighbouring sentence must not limit the milestones of this one.
         let utterance = self
             .utterances
@@ -310,7 +303,7 @@ fn join_milestone_phases(
         let phase_index = ExpressionPhase::ALL_EXPRESSION_PHASES
             .iter()
             .position(|candidate| candidate == phase)?;
-        let span = span_of(row);
+        let span = row.annotation_row_span();
         // An undivided body reaches from M2 to M4 without M3, whose place stays empty.
         let one = row.value.starts_with("M2-M4");
         times[if one { 1 } else { phase_index }] = Some(span.span_start_instant());
@@ -324,9 +317,9 @@ fn join_milestone_phases(
     for at in (0..4).rev() {
         times[at] = times[at].or(times[at + 1]);
     }
-    let [m1, m2, m3, m4, m5] = times.map(|at| at.unwrap_or(span_of(&first.1).span_start_instant()));
+    let [m1, m2, m3, m4, m5] = times.map(|at| at.unwrap_or(first.1.annotation_row_span().span_start_instant()));
     let m2 = if is_undivided && phases.len() == 1 {
-        span_of(&first.1).span_start_instant()
+        first.1.annotation_row_span().span_start_instant()
     } else {
         m2
     };

@@ -256,10 +256,7 @@ fn milestone_phase_annotations(marks: &ExpressionMilestones, duration: i64) -> V
         .into_iter()
         .zip(marks.phase_spans())
     {
-        let (from, to) = (
-            span.span_start_instant().instant_micros(),
-            span.span_end_instant().instant_micros(),
-        );
+        let (from, to) = span.span_bounds_micros();
         let (start, end) = (from.clamp(0, duration), to.clamp(0, duration));
         if start >= end {
             continue;

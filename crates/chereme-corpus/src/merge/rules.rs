@@ -82,10 +82,7 @@ impl MergeWork<'_> {
             }
             if came {
                 let mut row = stored_tiers::load_annotation_row(self.connection, annotation_row_number(*annotation))?;
-                (row.start_us, row.end_us) = (
-                    expected.span_start_instant().instant_micros(),
-                    expected.span_end_instant().instant_micros(),
-                );
+                (row.start_us, row.end_us) = expected.span_bounds_micros();
                 stored_tiers::update_annotation(self.connection, &row)?;
                 followed.insert(row.id);
             }

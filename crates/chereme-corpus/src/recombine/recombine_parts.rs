@@ -1,7 +1,7 @@
 //! The pieces from which a generated sign was composed, with their times in it.
 
 use chereme_compose::{GeneratedNote, NoteSubject};
-use chereme_motion::{RecordingInstant, TimeSpan};
+use chereme_motion::TimeSpan;
 use serde_json::Value;
 
 use super::{SOURCE_TIER_NAME, tier_name};
@@ -43,14 +43,12 @@ impl Corpus {
                 continue;
             }
             for row in stored_tiers::load_tier_annotation_rows(connection, tier.id)? {
-                let source: Option<Value> = row.source.and_then(|json| serde_json::from_str(&json).ok());
+                let json = row.source.as_deref();
+                let source: Option<Value> = json.and_then(|json| serde_json::from_str(json).ok());
                 let from = source.as_ref().and_then(|value| value["from"].as_str());
                 let Some(from) = from else { continue };
                 parts.push(MadePart {
-                    span: TimeSpan::span_between(
-                        RecordingInstant::from_micros(row.start_us),
-                        RecordingInstant::from_micros(row.end_us),
-                    ),
+                    span: row.annotation_row_span(),
                     gloss: row.value,
                     from: from.to_owned(),
                 });

@@ -96,7 +96,7 @@ impl NeighbourRelation {
                 Some((recording, start, end)) => {
                     let (token, span) = (
                         ids.document_number(doc).unwrap_or_default(),
-                        span_from_micros(start, end),
+                        TimeSpan::from_span_micros(start, end),
                     );
                     let candidates = by_recording.entry(recording).or_default();
                     candidates.push(RelationCandidate { doc, token, span });
@@ -162,7 +162,7 @@ impl NeighbourRelation {
                 };
                 if recordings.contains(&recording) {
                     marks.entry(recording).or_default().push(RelatedSpan {
-                        span: span_from_micros(start, end),
+                        span: TimeSpan::from_span_micros(start, end),
                         // A token is no neighbour of itself, unless the relation is to a stretch of its
                         // curve.
                         token: ids.document_number(doc).filter(|_| !self.itself),
@@ -186,7 +186,7 @@ impl NeighbourRelation {
             let wanted = passes || self.relation.is_none();
             if let Some((start, end)) = row.span.filter(|_| wanted) {
                 marks.push(RelatedSpan {
-                    span: span_from_micros(start, end),
+                    span: TimeSpan::from_span_micros(start, end),
                     token: None,
                     passes,
                 });
@@ -360,8 +360,4 @@ impl RelatedSpans {
         let mut near = earlier_marks.take_while(|(_, latest)| **latest >= from);
         near.any(|(mark, _)| holds(mark))
     }
-}
-
-fn span_from_micros(start: i64, end: i64) -> TimeSpan {
-    TimeSpan::span_between(RecordingInstant::from_micros(start), RecordingInstant::from_micros(end))
 }

@@ -76,26 +76,15 @@ impl Corpus {
     /// both. Answers that do not fit the plan are left out, with a finding. A file that was imported before changes
     /// nothing; later answers replace those of a participant who had not finished.
     ///
-    /// # Errors
-    /// Fails if there is no such study or a path leads nowhere; a file with a fault is reported, and the others imported.
-    pub fn import_answers(
-        &mut self,
-        study: &str,
-        paths: &[PathBuf],
-        progress: &mut ProgressReceiver<'_>,
-    ) -> CorpusResult<AnswersReport> {
-        self.import_answers_by(study, paths, &AnswersOptions::default(), progress)
-    }
-
-    /// Imports answers as [`import_answers`](Self::import_answers) does, and reads tables by a map of their columns: tables
-    /// of LimeSurvey or Qualtrics, one participant a row. The map is a table, too: a title in the column `column`, and either
+    /// The options may name a map of columns, which reads tables of LimeSurvey or Qualtrics, one participant a row. The map is a table, too: a title in the column `column`, and either
     /// `item`, `condition`, `question` (and `part`, `role`) or `means`: `participant`, `language`, `started_day`, `finished`,
     /// `profile.NAME`, `consent.NAME`. Codes of answers stand under `values`, as `A1=left; A2=right`. The report has the use
     /// of each column.
     ///
     /// # Errors
-    /// Those of [`import_answers`](Self::import_answers); fails if the map names something that the plan does not have.
-    pub fn import_answers_by(
+    /// Fails if there is no such study, a path leads nowhere, or the map names something that the plan does not have; a file
+    /// with a fault is reported, and the others imported.
+    pub fn import_answers(
         &mut self,
         study: &str,
         paths: &[PathBuf],

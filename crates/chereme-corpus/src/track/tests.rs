@@ -170,6 +170,13 @@ fn bits(column: &FrameNumberColumn) -> Vec<Option<u64>> {
     column.column_values().map(|value| value.map(f64::to_bits)).collect()
 }
 
+fn wrists_of_track(name: &str) -> AlignmentSignal {
+    AlignmentSignal {
+        track: name.to_owned(),
+        channels: Vec::new(),
+    }
+}
+
 #[test]
 fn every_number_of_every_form_reads_back_with_its_gaps() {
     let (_folder, mut corpus, take) = corpus();
@@ -286,7 +293,10 @@ fn tracks_are_moved_renamed_removed_and_all_of_it_is_undone() {
 fn lists_counts_and_the_folder_of_everything_know_every_kind() {
     let (folder, mut corpus, take) = corpus();
     corpus.add_tracks(&take, &every_kind()).expect("stored");
-    let filter = ListFilter::default().with_column_pattern("kind", "markers");
+    let filter = ListFilter {
+        columns: vec![("kind".to_owned(), "markers".to_owned())],
+        ..ListFilter::default()
+    };
     let listing = corpus.list_rows(ListKind::Tracks, &filter).expect("listed");
     let row = serde_json::to_value(&listing.rows[0]).expect("JSON");
     for (column, value) in [
@@ -394,12 +404,7 @@ fn the_offset_of_a_track_is_found_from_what_moves_in_both() {
     ];
     corpus.add_tracks(&take, &new).expect("stored");
     let found = corpus
-        .align_track(
-            &take,
-            &AlignmentSignal::from_track_wrists("pose"),
-            &AlignmentSignal::from_track_wrists("optical"),
-            5_000_000,
-        )
+        .align_track(&take, &wrists_of_track("pose"), &wrists_of_track("optical"), 5_000_000)
         .expect("aligned");
     assert!((found.offset_us - 720_000).abs() < 20_000, "{found:?}");
     assert!(found.confidence > 0.5, "{found:?}");
@@ -410,7 +415,7 @@ fn the_offset_of_a_track_is_found_from_what_moves_in_both() {
     };
     assert!(
         corpus
-            .align_track(&take, &missing, &AlignmentSignal::from_track_wrists("optical"), 1)
+            .align_track(&take, &missing, &wrists_of_track("optical"), 1)
             .is_err()
     );
 }

@@ -23,17 +23,6 @@ pub struct AlignmentSignal {
     pub channels: Vec<String>,
 }
 
-impl AlignmentSignal {
-    /// Returns the signal of a track's wrists.
-    #[must_use]
-    pub fn from_track_wrists(track: impl Into<String>) -> Self {
-        Self {
-            track: track.into(),
-            channels: Vec::new(),
-        }
-    }
-}
-
 /// The position of a track on the recording's clock, inferred from its movement.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TrackAlignment {

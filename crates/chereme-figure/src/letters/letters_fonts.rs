@@ -1,7 +1,6 @@
 //! The fonts of this computer, found by the characters that they have.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use fontdb::{Database, FaceInfo, ID, Stretch, Style};
@@ -85,14 +84,6 @@ impl SystemFonts {
         std::thread::spawn(|| {
             let _ = Self::shared_system_fonts();
         });
-    }
-
-    /// Returns the fonts in a folder and its subfolders.
-    #[must_use]
-    pub fn of_folder(folder: &Path) -> Self {
-        let mut faces = Database::new();
-        faces.load_fonts_dir(folder);
-        Self::new(faces)
     }
 
     fn new(faces: Database) -> Self {

@@ -448,10 +448,7 @@ impl TranscriptMergeWork<'_> {
                 .pieces
                 .find_loose_tier(&own.tier)
                 .is_some_and(|(tier, _)| is_chained(tier));
-            let (start, end) = (
-                own.it.span.span_start_instant().instant_micros(),
-                own.it.span.span_end_instant().instant_micros(),
-            );
+            let (start, end) = own.it.span.span_bounds_micros();
             let over = by_tier.get(&own.tier).into_iter().flatten().any(|other| {
                 other.2 != id
                     && changed.contains(&other.2)

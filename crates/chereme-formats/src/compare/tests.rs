@@ -51,7 +51,7 @@ fn document(text: &str) -> AnnotationTranscript {
 fn own(id: &str, start: i64, end: i64, value: &str) -> TranscriptAnnotation {
     TranscriptAnnotation {
         id: id.to_owned(),
-        span: TimeSpan::span_between(RecordingInstant::from_micros(start), RecordingInstant::from_micros(end)),
+        span: TimeSpan::from_span_micros(start, end),
         timing: AnnotationTiming::Own,
         parent: None,
         order: 0,

@@ -154,10 +154,7 @@ pub(crate) fn tiers_as_lines(transcript: &crate::transcript::AnnotationTranscrip
                 let above = it
                     .parent
                     .map_or(String::new(), |it| format!("{} ", char::from(b'a' + it.index as u8)));
-                let (start, end) = (
-                    it.span.span_start_instant().instant_micros(),
-                    it.span.span_end_instant().instant_micros(),
-                );
+                let (start, end) = it.span.span_bounds_micros();
                 format!(" {above}{start}-{end} {:?}", it.value)
             })
             .collect();

@@ -56,19 +56,13 @@ const STATURE_RANGE_M: std::ops::Range<f64> = 1.2..2.3;
 /// The stature in metres assumed for a body whose unit is not one of the usual units of files.
 const ASSUMED_STATURE_M: f64 = 1.7;
 
-/// Guesses the unit and axes of a skeleton as a file wrote it.
-///
-/// The unit follows from the stature; the axes follow from the direction from hips to shoulders (up) and from right
-/// to left. Many files keep bones along one local axis and put the body together by rotations only. Therefore pass
-/// the posture of the first frame, in the file's own unit and axes, if there is one: it decides if the rest pose is
-/// ambiguous, or if the two stand or face in different directions.
-#[must_use]
-pub fn detect_convention(skeleton: &Skeleton, first: Option<&ModelPose>) -> ConventionGuess {
-    BodyAnatomy::detect_anatomy(skeleton).guess_convention(skeleton, first)
-}
-
 impl BodyAnatomy {
-    /// Guesses the unit and axes as [`detect_convention`] does, with the parts already found.
+    /// Guesses the unit and axes of a skeleton as a file wrote it.
+    ///
+    /// The unit follows from the stature; the axes follow from the direction from hips to shoulders (up) and from right
+    /// to left. Many files keep bones along one local axis and put the body together by rotations only. Therefore pass
+    /// the posture of the first frame, in the file's own unit and axes, if there is one: it decides if the rest pose is
+    /// ambiguous, or if the two stand or face in different directions.
     #[must_use]
     pub fn guess_convention(&self, skeleton: &Skeleton, first: Option<&ModelPose>) -> ConventionGuess {
         let mut reasons = Vec::new();

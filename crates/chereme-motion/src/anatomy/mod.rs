@@ -55,7 +55,7 @@ use glam::{DMat3, DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 
 pub use anatomy_roles::{AssignedJointRoles, RolesError};
-pub use convention::{ConventionGuess, detect_convention};
+pub use convention::ConventionGuess;
 pub use measures::{BodyFrame, BodyMeasures};
 pub use part::{BodyPart, PartError};
 pub use range::{HandCorrection, HandRange};

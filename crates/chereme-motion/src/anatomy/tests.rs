@@ -361,7 +361,7 @@ fn units_and_axes_are_detected_in_every_orientation() {
         SkeletonJoint::new("child", Some(0), DVec3::Y * 8.0),
     ])
     .expect("a tree");
-    let guess = detect_convention(&chain, None);
+    let guess = BodyAnatomy::detect_anatomy(&chain).guess_convention(&chain, None);
     assert_eq!((guess.unit_name, guess.confidence), ("unknown", 0.0));
     assert!(guess.reasons.iter().any(|reason| reason.contains("say the unit")));
 }

@@ -3,7 +3,6 @@
 use glam::{DQuat, DVec3};
 
 use super::{dressed, list, milli, signing, turned};
-use crate::anatomy::detect_convention;
 use crate::anatomy::tests::fixtures::conventions::{conventional_joint_name, naming_conventions};
 use crate::anatomy::tests::fixtures::{
     BodyVariation, PLAIN_BODY_VARIATION, any_turn, body_variations, fixture_body, rename_joints,
@@ -371,26 +370,35 @@ fn golden_units_and_axes_of_skeletons() {
                 ..PLAIN_BODY_VARIATION
             });
             put(&mut out, format!("## {unit}, {turn}"));
-            put(&mut out, format!("{:?}", detect_convention(&skeleton, None)));
+            put(
+                &mut out,
+                format!(
+                    "{:?}",
+                    BodyAnatomy::detect_anatomy(&skeleton).guess_convention(&skeleton, None)
+                ),
+            );
             let mut first = skeleton.rest_pose();
             first.rotations[0] = DQuat::from_rotation_y(quarter);
             let first = ModelPose::from_local_pose(&skeleton, &first);
             put(
                 &mut out,
-                format!("turned {:?}", detect_convention(&skeleton, Some(&first))),
+                format!(
+                    "turned {:?}",
+                    BodyAnatomy::detect_anatomy(&skeleton).guess_convention(&skeleton, Some(&first))
+                ),
             );
         }
     }
     put(&mut out, "## first frames that stand or face in another direction");
     for (name, skeleton) in odd_bodies() {
-        let found = detect_convention(&skeleton, None);
+        let found = BodyAnatomy::detect_anatomy(&skeleton).guess_convention(&skeleton, None);
         put(&mut out, format!("{name}: {found:?}"));
         for degrees in [20.0_f64, 50.0, 65.0, 100.0, 170.0] {
             for axis in [SpaceAxis::X, SpaceAxis::Y, SpaceAxis::Z] {
                 let mut first = skeleton.rest_pose();
                 first.rotations[0] = axis.axis_rotation(degrees.to_radians());
                 let first = ModelPose::from_local_pose(&skeleton, &first);
-                let found = detect_convention(&skeleton, Some(&first));
+                let found = BodyAnatomy::detect_anatomy(&skeleton).guess_convention(&skeleton, Some(&first));
                 put(&mut out, format!("  {degrees} about {axis:?}: {found:?}"));
             }
         }

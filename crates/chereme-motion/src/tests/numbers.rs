@@ -91,9 +91,14 @@ fn golden_angles_of_wrists_and_joints() {
         DQuat::from_rotation_x(0.4),
         DQuat::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 2.1),
     );
-    for kind in InterpolationKind::ALL_INTERPOLATIONS {
+    for (kind, name) in [
+        (InterpolationKind::Slerp, "slerp"),
+        (InterpolationKind::Cosine, "cosine"),
+        (InterpolationKind::Sigmoid, "sigmoid"),
+        (InterpolationKind::MinimumJerk, "minimum-jerk"),
+    ] {
         let shares = (-1..=11).map(|n| kind.interpolation_share(f64::from(n) / 10.0));
-        put(&mut out, format!("{} {}", kind.interpolation_name(), list(shares)));
+        put(&mut out, format!("{name} {}", list(shares)));
         for weight in [0.2, 0.6] {
             let there = [to, -to].map(|to| turned(kind.interpolate_rotation(from, to, weight)));
             put(&mut out, format!("  {weight} {}", there.join(", ")));
@@ -230,7 +235,7 @@ fn golden_times_and_rates() {
         let at = [-5, 0, 16_683, 19_999, 20_000, 20_001, 500_000, 1_000_000]
             .map(|micros| rate.nearest_frame_at(RecordingInstant::from_micros(micros)));
         let within = [(0, 40_000), (1, 40_001), (39_999, 80_000), (40_000, 40_000)].map(|(start, end)| {
-            let span = TimeSpan::span_between(RecordingInstant::from_micros(start), RecordingInstant::from_micros(end));
+            let span = TimeSpan::from_span_micros(start, end);
             rate.frames_in(span)
         });
         let span = rate.frame_range_span(3..10);
@@ -287,7 +292,7 @@ fn golden_times_and_rates() {
         let at = [-10, 0, 99_999, 100_000, 260_000, 545_000, 900_000]
             .map(|micros| times.shown_frame_at(RecordingInstant::from_micros(micros), frames));
         let within = [(0, 250_001), (100_000, 300_000), (540_000, 620_000)].map(|(start, end)| {
-            let span = TimeSpan::span_between(RecordingInstant::from_micros(start), RecordingInstant::from_micros(end));
+            let span = TimeSpan::from_span_micros(start, end);
             times.frames_in(span, frames)
         });
         let starts: Vec<RecordingInstant> = (0..frames + 2).map(|frame| times.frame_time_instant(frame)).collect();

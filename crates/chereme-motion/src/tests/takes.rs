@@ -298,7 +298,13 @@ fn golden_points_and_curves_of_takes() {
             ),
         );
         for seconds in [0.0, 0.09, 0.16, 0.35, 0.5] {
-            let found = markers.shown_at(RecordingInstant::from_seconds(seconds));
+            let instant = RecordingInstant::from_seconds(seconds);
+            let frame = markers
+                .marker_times()
+                .shown_frame_at(instant, markers.marker_frame_count());
+            let found = frame.map_or(vec![None; markers.marker_points().len()], |at| {
+                markers.displayed_markers(at)
+            });
             let found: Vec<Option<String>> = found.into_iter().map(|it| it.map(milli)).collect();
             put(&mut out, format!("{seconds}: {found:?}"));
         }

@@ -41,17 +41,6 @@ impl QueryError {
         self
     }
 
-    /// Returns the error as lines of text: those of [`QueryError::draw_query_error`], and the remedy.
-    #[must_use]
-    pub fn render_query_error(&self, query: &str) -> String {
-        let mut text = self.draw_query_error(query);
-        if !self.remedy.is_empty() {
-            text.push('\n');
-            text.push_str(self.remedy.remedy_text());
-        }
-        text
-    }
-
     /// Returns the message with the suggestion.
     #[must_use]
     pub fn fault_message(&self) -> String {

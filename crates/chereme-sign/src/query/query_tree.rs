@@ -3,7 +3,7 @@
 use super::{AttributeTest, NamedSearch, NotationPattern, TextPattern};
 use crate::component::{ComponentField, ComponentReading};
 use crate::relation::TimeRelation;
-use std::ops::{Bound, Range, RangeBounds};
+use std::ops::{Bound, Range};
 
 /// A place in the text of a query, in characters (not bytes), half-open.
 ///
@@ -458,12 +458,6 @@ impl TimeTest {
             Self::AtLeast(least) => (Bound::Included(least), Bound::Unbounded),
             Self::Between(least, most) => (Bound::Included(least), Bound::Included(most)),
         }
-    }
-
-    /// Returns whether a time of this many microseconds passes.
-    #[must_use]
-    pub fn accepts_time(self, micros: i64) -> bool {
-        self.time_bounds().contains(&micros)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Cuts an annotation in two, and merges two into one.
 
 use super::error::EditError;
-use super::tier_plan::{EditPlan, PlanResult, spans_hull};
+use super::tier_plan::{EditPlan, PlanResult};
 use super::{AnnotationId, MergeSeam, Tier, TierAnnotation, TierStereotype, subdivision_share};
 use crate::component::ComponentReading;
 use chereme_motion::{RecordingInstant, TimeSpan};
@@ -108,7 +108,7 @@ impl EditPlan<'_> {
             a,
             b,
             TierAnnotation {
-                span: spans_hull(a.span, b.span),
+                span: a.span.enclosing_span(b.span),
                 value,
                 ..a.clone()
             },

@@ -13,7 +13,7 @@ impl AskedTierChange {
     #[must_use]
     pub fn changed_annotations(&self) -> Vec<AnnotationId> {
         match self {
-            Self::Add { .. } | Self::SetVocabulary { .. } => Vec::new(),
+            Self::Add { .. } => Vec::new(),
             Self::AddBelow { parent, .. } => vec![*parent],
             Self::Merge { first, second, .. } => vec![*first, *second],
             Self::Move { annotation, .. }
@@ -30,8 +30,7 @@ impl AskedTierChange {
     /// symbolic tiers, their parents. The tier set given to [`plan_tier_change`] must hold every tier; on the
     /// changed tier and the tier above it the annotations that share an instant with this time or
     /// touch it; all annotations below those of the changed tier; and the named ones with their
-    /// parents. For a change of vocabulary it must hold one annotation of the tier for each
-    /// different value.
+    /// parents.
     #[must_use]
     pub fn change_window(&self, named: &[&TierAnnotation]) -> Option<TimeSpan> {
         let changed_span = match self {
@@ -42,15 +41,8 @@ impl AskedTierChange {
             .iter()
             .map(|annotation| annotation.span)
             .chain(changed_span)
-            .reduce(spans_hull)
+            .reduce(TimeSpan::enclosing_span)
     }
-}
-
-pub(super) fn spans_hull(a: TimeSpan, b: TimeSpan) -> TimeSpan {
-    TimeSpan::span_between(
-        a.span_start_instant().min(b.span_start_instant()),
-        a.span_end_instant().max(b.span_end_instant()),
-    )
 }
 
 /// Returns the edits that carry out `change` with all its consequences.
@@ -77,7 +69,6 @@ pub fn plan_tier_change(
         fresh,
         puts: Vec::new(),
         removed: Vec::new(),
-        vocabulary: None,
     };
     match change {
         AskedTierChange::Add { tier, span, value } => plan.plan_added_annotation(*tier, *span, value)?,
@@ -102,7 +93,6 @@ pub fn plan_tier_change(
         }
         AskedTierChange::Remove { annotation } => plan.plan_annotation_removal(*annotation)?,
         AskedTierChange::SetValue { annotation, value } => plan.set_value(*annotation, value)?,
-        AskedTierChange::SetVocabulary { tier, vocabulary } => plan.set_vocabulary(*tier, vocabulary)?,
     }
     Ok(plan.planned_edits())
 }
@@ -112,7 +102,6 @@ pub(super) struct EditPlan<'a> {
     pub(super) fresh: &'a mut dyn FnMut() -> AnnotationId,
     pub(super) puts: Vec<TierAnnotation>,
     pub(super) removed: Vec<AnnotationId>,
-    vocabulary: Option<TierEdit>,
 }
 
 pub(super) type PlanResult = Result<(), EditError>;
@@ -122,7 +111,7 @@ impl<'a> EditPlan<'a> {
         let unchanged = |new: &TierAnnotation| self.set.annotation_by_id(new.id) == Some(new);
         let puts = self.puts.into_iter().filter(|new| !unchanged(new)).map(TierEdit::Put);
         let removed = self.removed.into_iter().rev().map(TierEdit::Remove);
-        puts.chain(removed).chain(self.vocabulary).collect()
+        puts.chain(removed).collect()
     }
 
     pub(super) fn require_tier(&self, id: TierId) -> Result<&'a Tier, EditError> {
@@ -492,7 +481,7 @@ impl<'a> EditPlan<'a> {
             // Subdivisions leave no gap: a neighbour takes over the time.
             Some(TierStereotype::TimeSubdivision) => match self.annotation_neighbours(old) {
                 (Some(other), _) | (None, Some(other)) => {
-                    self.replace_annotation_span(other, spans_hull(other.span, old.span));
+                    self.replace_annotation_span(other, other.span.enclosing_span(old.span));
                 }
                 (None, None) => {}
             },
@@ -518,25 +507,6 @@ impl<'a> EditPlan<'a> {
         self.puts.push(TierAnnotation {
             value: value.clone(),
             ..old.clone()
-        });
-        Ok(())
-    }
-
-    fn set_vocabulary(&mut self, id: TierId, vocabulary: &Option<String>) -> PlanResult {
-        let tier = self.require_tier(id)?;
-        if tier.vocabulary == *vocabulary {
-            return Ok(());
-        }
-        let tier = Tier {
-            vocabulary: vocabulary.clone(),
-            ..tier.clone()
-        };
-        for annotation in self.set.annotations_on_tier(id) {
-            self.check_value(&tier, annotation.id.into(), &annotation.value)?;
-        }
-        self.vocabulary = Some(TierEdit::Vocabulary {
-            tier: id,
-            vocabulary: vocabulary.clone(),
         });
         Ok(())
     }

@@ -130,7 +130,7 @@ mod tests {
     use super::*;
 
     fn span(start: i64, end: i64) -> TimeSpan {
-        TimeSpan::span_between(RecordingInstant::from_micros(start), RecordingInstant::from_micros(end))
+        TimeSpan::from_span_micros(start, end)
     }
 
     #[test]

@@ -89,12 +89,7 @@ fn annotations_hull(snapshot: &CorpusSnapshot, annotations: &BTreeSet<i64>) -> O
     let found_annotations = annotations.iter().filter_map(|id| snapshot.find_open_annotation(*id));
     found_annotations
         .map(|annotation| annotation.tier.annotations.annotation_span_at(annotation.at))
-        .reduce(|a, b| {
-            TimeSpan::span_between(
-                a.span_start_instant().min(b.span_start_instant()),
-                a.span_end_instant().max(b.span_end_instant()),
-            )
-        })
+        .reduce(|a, b| a.enclosing_span(b))
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use chereme_corpus::{CorpusOverview, RecordingContents, RecordingGlance, TierContents};
-use chereme_motion::{RecordingInstant, TimeSpan};
+use chereme_motion::TimeSpan;
 
 /// The corpus at one moment, with the annotations of the open recording.
 #[derive(Debug, Clone, Default)]
@@ -94,7 +94,7 @@ impl CorpusSnapshot {
         let tokens = &self.open.as_deref()?.contents.tokens;
         let token = tokens.iter().find(|token| token.id == id)?;
         let (start, end) = token.start_us.zip(token.end_us)?;
-        let span = TimeSpan::span_between(RecordingInstant::from_micros(start), RecordingInstant::from_micros(end));
+        let span = TimeSpan::from_span_micros(start, end);
         Some(TokenSign {
             gloss: token.gloss.clone(),
             place: token.recording_id.map(|recording| (recording, span)),

@@ -200,9 +200,7 @@ mod tests {
     fn pieces_around_the_playhead_are_asked_for_once_and_cover_every_frame() {
         let mut reel = MovementReel::default();
         reel.load_recording_reel(Some(&glance(3000)));
-        let span = |start, end| {
-            TimeSpan::span_between(RecordingInstant::from_micros(start), RecordingInstant::from_micros(end))
-        };
+        let span = |start, end| TimeSpan::from_span_micros(start, end);
         assert_eq!(piece(&mut reel, 0), Some((0, span(500_000, 12_500_000))));
         assert_eq!(piece(&mut reel, 0), Some((1, span(12_500_000, 24_500_000))));
         assert_eq!(piece(&mut reel, 0), None);

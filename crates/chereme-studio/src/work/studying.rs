@@ -121,7 +121,7 @@ pub(crate) fn import_answers_job(name: String, paths: Vec<PathBuf>, options: Ans
         ..STUDY_CHANGE_JOB_ABOUT
     };
     CorpusJob::new(about, move |corpus, progress| {
-        let done = corpus.import_answers_by(&name, &paths, &options, progress)?;
+        let done = corpus.import_answers(&name, &paths, &options, progress)?;
         Ok(WorkOutcome::AnswersImported(Box::new(done)))
     })
 }

@@ -3,11 +3,11 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use chereme_corpus::study::StudyRequest;
 use chereme_corpus::study::study_answers::{
     ANSWERS_FORMAT, ANSWERS_VERSION, ParticipantDevice, StudyAnswer, StudyParticipant,
 };
 use chereme_corpus::study::study_plan::TrialRole;
+use chereme_corpus::study::{AnswersOptions, StudyRequest};
 use chereme_corpus::{
     ConsentAudience, ConsentChange, Corpus, CorpusAddress, ProgressReceiver, RowName, ignore_progress_step,
 };
@@ -153,7 +153,7 @@ pub fn answered(corpus: &mut Corpus, folder: &Path) {
     ];
     let mut hear = ignore_progress_step;
     let progress = &mut ProgressReceiver::new(&mut hear);
-    let report = corpus.import_answers("places", &files, progress);
+    let report = corpus.import_answers("places", &files, &AnswersOptions::default(), progress);
     assert_eq!(report.expect("imported").added, 2);
 }
 

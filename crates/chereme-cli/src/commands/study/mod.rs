@@ -299,7 +299,7 @@ fn import_study_answers(
     output: &mut CommandOutput,
 ) -> Result<ExitCode> {
     let mut corpus = cli.open_cli_corpus(corpus)?;
-    let report = with_progress_bar(|progress| corpus.import_answers_by(name, files, options, progress))?;
+    let report = with_progress_bar(|progress| corpus.import_answers(name, files, options, progress))?;
     for file in &report.files {
         print_column_uses(&file.columns, output)?;
         if file.findings.is_empty() && file.status != FileStatus::Refused {

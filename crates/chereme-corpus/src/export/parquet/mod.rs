@@ -7,7 +7,6 @@ mod tests;
 
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
-use std::io::Write;
 use std::ops::Range;
 
 use ::parquet::data_type::ByteArray;
@@ -15,10 +14,9 @@ use chereme_sign::SignComponent;
 use chereme_sign::tier::AnnotatedHands;
 use rusqlite::Connection;
 
-use super::csv;
 use super::export_long::LongTable;
+use super::{ExportJob, csv};
 use crate::address::RecordingStretch;
-use crate::consent::ConsentAudience;
 use crate::db::signs;
 use crate::db::stored_attributes;
 use crate::db::stored_columns::{OpinionStanding, ValueState, phase_name, phase_place};
@@ -68,21 +66,21 @@ fn describe_long_table(long: LongTable) -> String {
 ///
 /// # Errors
 /// Fails if rows are damaged, or `out` fails.
-pub(super) fn write_token_parquet(
-    connection: &Connection,
-    tokens: &[i64],
-    audience: Option<ConsentAudience>,
-    out: &mut dyn Write,
-    notes: &mut Vec<String>,
-    progress: &mut ProgressReceiver<'_>,
-) -> CorpusResult<()> {
+pub(super) fn write_token_parquet(job: &mut ExportJob<'_, '_>, tokens: &[i64]) -> CorpusResult<()> {
     let mut text = Vec::new();
     let form = csv::TableForm {
-        audience,
+        audience: job.gate.export_audience().consent_audience(),
         ..csv::TableForm::new(b',')
     };
     // Both formats then have the same columns and cells.
-    csv::write_token_csv(connection, tokens, form, &mut text, notes, progress)?;
+    let mut table_job = ExportJob {
+        out: &mut text,
+        connection: job.connection,
+        gate: job.gate,
+        notes: job.notes,
+        progress: job.progress,
+    };
+    csv::write_token_csv(&mut table_job, tokens, form)?;
     let fault = |error: ::csv::Error| CorpusError::from_wrong_message(error.to_string());
     let mut reader = ::csv::Reader::from_reader(text.as_slice());
     let titles: Vec<String> = reader.headers().map_err(fault)?.iter().map(str::to_owned).collect();
@@ -93,7 +91,7 @@ pub(super) fn write_token_parquet(
             column.push(Some(cell.to_owned()).filter(|cell| !cell.is_empty()));
         }
     }
-    let numbers = numeric(connection, tokens)?;
+    let numbers = numeric(job.connection, tokens)?;
     let mut taken = BTreeSet::new();
     let table: ParquetTable = titles
         .iter()
@@ -112,7 +110,7 @@ pub(super) fn write_token_parquet(
             ParquetColumn::new(&plain_column_title(title, &mut taken), cells)
         })
         .collect();
-    let mut file = ParquetFileWriter::new(&table, &describe_long_table(LongTable::Tokens), out)?;
+    let mut file = ParquetFileWriter::new(&table, &describe_long_table(LongTable::Tokens), job.out)?;
     file.write_row_group(&table)?;
     file.finish_parquet_file()
 }
@@ -164,12 +162,8 @@ fn plain_column_title(title: &str, taken: &mut BTreeSet<String>) -> String {
 ///
 /// # Errors
 /// Fails if rows are damaged, or `out` fails.
-pub(super) fn write_component_parquet(
-    connection: &Connection,
-    tokens: &[i64],
-    out: &mut dyn Write,
-    progress: &mut ProgressReceiver<'_>,
-) -> CorpusResult<()> {
+pub(super) fn write_component_parquet(job: &mut ExportJob<'_, '_>, tokens: &[i64]) -> CorpusResult<()> {
+    let connection = job.connection;
     let texts = [
         "gloss",
         "lexicon",
@@ -188,7 +182,7 @@ pub(super) fn write_component_parquet(
         .chain(texts.map(|name| ParquetColumn::new(name, ParquetCells::Text(Vec::new()))))
         .chain([ParquetColumn::new("confidence", ParquetCells::Double(Vec::new()))])
         .collect();
-    let mut file = ParquetFileWriter::new(&empty, &describe_long_table(LongTable::Components), out)?;
+    let mut file = ParquetFileWriter::new(&empty, &describe_long_table(LongTable::Components), job.out)?;
     for (part, ids) in tokens.chunks(signs::MAX_ROWS_PER_QUERY).enumerate() {
         let mut table = empty.clone();
         let rows = signs::load_token_rows(connection, ids)?;
@@ -225,7 +219,7 @@ pub(super) fn write_component_parquet(
             }
         }
         file.write_row_group(&table)?;
-        report_parquet_progress(progress, part * signs::MAX_ROWS_PER_QUERY, tokens.len(), "tokens")?;
+        report_parquet_progress(job.progress, part * signs::MAX_ROWS_PER_QUERY, tokens.len(), "tokens")?;
     }
     file.finish_parquet_file()
 }
@@ -244,12 +238,15 @@ fn report_parquet_progress(
 /// # Errors
 /// Fails if rows are damaged, or `out` fails.
 pub(super) fn write_annotation_parquet(
-    connection: &Connection,
+    job: &mut ExportJob<'_, '_>,
     stretches: &[RecordingStretch],
-    out: &mut dyn Write,
-    progress: &mut ProgressReceiver<'_>,
 ) -> CorpusResult<()> {
-    let mut file = ParquetFileWriter::new(&annotations_table(), &describe_long_table(LongTable::Annotations), out)?;
+    let connection = job.connection;
+    let mut file = ParquetFileWriter::new(
+        &annotations_table(),
+        &describe_long_table(LongTable::Annotations),
+        job.out,
+    )?;
     // An annotation that two tokens share is written as one row.
     let mut written = BTreeSet::new();
     let opinions = signs::opinion_standings(connection)?;
@@ -257,10 +254,7 @@ pub(super) fn write_annotation_parquet(
         let mut table = annotations_table();
         for tier in stored_tiers::load_tier_rows(connection, stretch.recording.id)? {
             for row in stored_tiers::load_tier_annotation_rows(connection, tier.id)? {
-                let (start, end) = (
-                    stretch.span.span_start_instant().instant_micros(),
-                    stretch.span.span_end_instant().instant_micros(),
-                );
+                let (start, end) = stretch.span.span_bounds_micros();
                 let inside = stretch.token.is_none() || (row.start_us < end && start < row.end_us);
                 if inside && written.insert(row.id) {
                     push_annotation_cells(&mut table, stretch, &tier, &row, opinions.get(&row.id).copied());
@@ -268,7 +262,7 @@ pub(super) fn write_annotation_parquet(
             }
         }
         file.write_row_group(&table)?;
-        report_parquet_progress(progress, done + 1, stretches.len(), "recordings")?;
+        report_parquet_progress(job.progress, done + 1, stretches.len(), "recordings")?;
     }
     file.finish_parquet_file()
 }
@@ -350,18 +344,14 @@ fn push_annotation_cells(
 ///
 /// # Errors
 /// Fails if blocks are damaged, or `out` fails.
-pub(super) fn write_frame_parquet(
-    connection: &Connection,
-    stretches: &[RecordingStretch],
-    out: &mut dyn Write,
-    progress: &mut ProgressReceiver<'_>,
-) -> CorpusResult<()> {
-    let mut file = ParquetFileWriter::new(&frames_table(), &describe_long_table(LongTable::Frames), out)?;
+pub(super) fn write_frame_parquet(job: &mut ExportJob<'_, '_>, stretches: &[RecordingStretch]) -> CorpusResult<()> {
+    let connection = job.connection;
+    let mut file = ParquetFileWriter::new(&frames_table(), &describe_long_table(LongTable::Frames), job.out)?;
     let takes = RefCell::default();
     for stretch in stretches {
         if stored_recordings::body_track(connection, stretch.recording.id)?.is_some() {
             let usable = usable_take(connection, &takes, &stretch.recording)?.frames;
-            write_movement_groups(connection, stretch, &usable, &mut file, progress)?;
+            write_movement_groups(connection, stretch, &usable, &mut file, job.progress)?;
         }
     }
     file.finish_parquet_file()

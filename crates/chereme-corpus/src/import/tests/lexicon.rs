@@ -261,7 +261,10 @@ fn attributes_are_kept_listed_and_found_and_can_be_undone() {
     let listed = corpus
         .list_rows(
             ListKind::Signs,
-            &ListFilter::default().with_column_pattern("gloss", "A"),
+            &ListFilter {
+                columns: vec![("gloss".to_owned(), "A".to_owned())],
+                ..ListFilter::default()
+            },
         )
         .expect("listed");
     assert_eq!(

@@ -9,7 +9,7 @@ use std::ops::Range;
 
 use chereme_analysis::measure::{MeasuredKind, MeasuredStroke, measure_hand_movement};
 use chereme_compose::{BodyLanguageChanges, LanguageValue};
-use chereme_motion::{BodyAnatomy, BodySide, RecordingInstant, TimeSpan};
+use chereme_motion::{BodyAnatomy, BodySide, TimeSpan};
 use chereme_sign::SignComponent;
 use chereme_sign::hamnosys::BodyLanguage;
 use chereme_sign::tier::AnnotatedHands;
@@ -132,9 +132,9 @@ impl MovementSamples {
         } else {
             &groups[..]
         };
-        let around = TimeSpan::span_between(
-            RecordingInstant::from_micros(movement.span.span_start_instant().instant_micros() - MEASURED_MARGIN_US),
-            RecordingInstant::from_micros(movement.span.span_end_instant().instant_micros() + MEASURED_MARGIN_US),
+        let around = TimeSpan::from_span_micros(
+            movement.span.span_start_instant().instant_micros() - MEASURED_MARGIN_US,
+            movement.span.span_end_instant().instant_micros() + MEASURED_MARGIN_US,
         );
         let (frames, own) = (track.frames_in(around), track.frames_in(movement.span));
         let within: Range<usize> = own.start.saturating_sub(frames.start)..own.end.saturating_sub(frames.start);
@@ -323,7 +323,7 @@ fn on_tiers(spans: &[MovementSpan], inventories: &[StoredInventory]) -> Vec<Meas
         };
         movements.push(MeasuredMovement {
             recording: span.recording_id,
-            span: movement_span_between(span.start_us, span.end_us),
+            span: TimeSpan::from_span_micros(span.start_us, span.end_us),
             hand: span.hand,
             size: overlapping_value("size"),
             plain: overlapping_value("manner").is_none_or(|manner| manner == "plain"),
@@ -356,7 +356,7 @@ fn in_lexicon(rows: &[LexiconMovement]) -> Vec<MeasuredMovement> {
         {
             movements.push(MeasuredMovement {
                 recording: token[0].recording_id,
-                span: movement_span_between(token[0].start_us, token[0].end_us),
+                span: TimeSpan::from_span_micros(token[0].start_us, token[0].end_us),
                 hand: Some(AnnotatedHands::One(HandRef::Dominant)),
                 kind: (*kind).to_owned(),
                 size: sizes.first().map(|size| (*size).to_owned()),
@@ -366,10 +366,6 @@ fn in_lexicon(rows: &[LexiconMovement]) -> Vec<MeasuredMovement> {
         }
     }
     movements
-}
-
-fn movement_span_between(start: i64, end: i64) -> TimeSpan {
-    TimeSpan::span_between(RecordingInstant::from_micros(start), RecordingInstant::from_micros(end))
 }
 
 /// The body and the signer of a recording.

@@ -506,12 +506,6 @@ impl Corpus {
     }
 }
 
-/// Makes the report of a study.
-#[must_use]
-pub fn make_study_report(plan: &StudyPlan, participants: &[StudyParticipant], options: &ReportOptions) -> StudyReport {
-    report_of(plan, plan.plan_sha256(), participants, options)
-}
-
 fn report_of(
     plan: &StudyPlan,
     plan_sha256: String,

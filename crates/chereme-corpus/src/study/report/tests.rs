@@ -4,8 +4,13 @@ mod simulated;
 
 use serde_json::{Value, json};
 
+use super::{ReportOptions, StudyReport, report_of};
 use crate::study::study_answers::StudyParticipant;
 use crate::study::study_plan::StudyPlan;
+
+fn make_study_report(plan: &StudyPlan, participants: &[StudyParticipant], options: &ReportOptions) -> StudyReport {
+    report_of(plan, plan.plan_sha256(), participants, options)
+}
 
 /// Returns a plan from the parts that differ between tests.
 fn plan_of(trials: &[Value], questions: Value, more: Value) -> StudyPlan {

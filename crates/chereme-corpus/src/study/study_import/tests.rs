@@ -57,7 +57,7 @@ fn import(corpus: &mut Corpus, path: &Path) -> AnswersReport {
     let mut hear = ignore_progress_step;
     let progress = &mut ProgressReceiver::new(&mut hear);
     corpus
-        .import_answers("bowls", &[path.to_owned()], progress)
+        .import_answers("bowls", &[path.to_owned()], &AnswersOptions::default(), progress)
         .expect("imported")
 }
 
@@ -231,6 +231,7 @@ fn folders_that_lie_too_deep_are_refused_rather_than_left_out() {
         let found = corpus.import_answers(
             "bowls",
             std::slice::from_ref(&top),
+            &AnswersOptions::default(),
             &mut ProgressReceiver::new(&mut hear),
         );
         assert_eq!(found.is_ok(), taken, "{depth}: {found:?}");

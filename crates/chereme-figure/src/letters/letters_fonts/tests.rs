@@ -1,12 +1,18 @@
 use super::*;
 
+fn fonts_of_folder(folder: &std::path::Path) -> SystemFonts {
+    let mut faces = Database::new();
+    faces.load_fonts_dir(folder);
+    SystemFonts::new(faces)
+}
+
 /// A folder with one font, which has Greek and Cyrillic letters, and no Arabic ones.
 pub(in crate::letters) fn noto() -> (tempfile::TempDir, SystemFonts) {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("NotoSans.ttf");
     std::fs::write(file, notosans::REGULAR_TTF).expect("a font");
     std::fs::write(folder.path().join("broken.ttf"), b"\0\x01\0\0 no font").expect("a file");
-    let fonts = SystemFonts::of_folder(folder.path());
+    let fonts = fonts_of_folder(folder.path());
     (folder, fonts)
 }
 
@@ -29,5 +35,5 @@ fn fonts_are_read_on_demand_and_missing_characters_reported_once() {
 #[test]
 fn a_computer_without_fonts_has_none() {
     let folder = tempfile::tempdir().expect("a folder");
-    assert!(SystemFonts::of_folder(folder.path()).find_letter_font('a').is_none());
+    assert!(fonts_of_folder(folder.path()).find_letter_font('a').is_none());
 }

@@ -7,7 +7,7 @@ use crate::compare::loose::{LooseAnnotation, TranscriptPieces};
 use crate::compare::merge_transcripts;
 use crate::transcript::AnnotationTranscript;
 use crate::transcript::TranscriptTier;
-use chereme_motion::{RecordingInstant, TimeSpan};
+use chereme_motion::TimeSpan;
 use chereme_sign::TierStereotype;
 use proptest::prelude::*;
 use std::collections::BTreeMap;
@@ -31,12 +31,7 @@ fn stereotype(pieces: &TranscriptPieces, tier: &str) -> Option<TierStereotype> {
 
 fn put(pieces: &mut TranscriptPieces, tier: &str, (above, rank): (Option<&str>, f64), value: &str) -> String {
     let times = above.and_then(|id| pieces.all.get(id)).map(|it| it.it.span);
-    let (start, end) = times.map_or((0, 1000), |it| {
-        (
-            it.span_start_instant().instant_micros(),
-            it.span_end_instant().instant_micros(),
-        )
-    });
+    let (start, end) = times.map_or((0, 1000), |it| it.span_bounds_micros());
     pieces.add_loose_annotation(LooseAnnotation {
         it: own("", start, end, value),
         tier: tier.to_owned(),
@@ -47,15 +42,12 @@ fn put(pieces: &mut TranscriptPieces, tier: &str, (above, rank): (Option<&str>, 
 
 fn set_times(pieces: &mut TranscriptPieces, id: &str, start: i64, end: i64) {
     if let Some(it) = pieces.all.get_mut(id) {
-        it.it.span = TimeSpan::span_between(RecordingInstant::from_micros(start), RecordingInstant::from_micros(end));
+        it.it.span = TimeSpan::from_span_micros(start, end);
     }
 }
 
 fn times(it: &LooseAnnotation) -> (i64, i64) {
-    (
-        it.it.span.span_start_instant().instant_micros(),
-        it.it.span.span_end_instant().instant_micros(),
-    )
+    it.it.span.span_bounds_micros()
 }
 
 fn base(numbers: &mut Seeded) -> AnnotationTranscript {

@@ -247,10 +247,7 @@ mod tests {
         let (transcript, _) = read_elan_table(text.as_bytes()).expect("a table");
         let tier = |it: &TranscriptTier| {
             let all = it.annotations.iter().map(|it| {
-                let (start, end) = (
-                    it.span.span_start_instant().instant_micros(),
-                    it.span.span_end_instant().instant_micros(),
-                );
+                let (start, end) = it.span.span_bounds_micros();
                 format!("{} {}-{} {}", it.id, start / 1000, end / 1000, it.value)
             });
             format!("{}: {}", it.name, all.collect::<Vec<_>>().join(", "))

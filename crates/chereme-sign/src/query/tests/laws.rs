@@ -1,7 +1,7 @@
 //! Laws for any text and for any query.
 
 use super::super::*;
-use super::{CANONICAL, REWRITTEN};
+use super::{CANONICAL, REWRITTEN, render_query_error};
 use crate::component::{ComponentField, HandRef, SignComponent, SignPhase};
 use crate::relation::TimeRelation;
 use proptest::prelude::*;
@@ -16,7 +16,7 @@ fn check_any(text: &str) {
                 error.at.start <= error.at.end && error.at.end <= count,
                 "{text:?} {error:?}"
             );
-            assert!(!error.message.is_empty() && !error.render_query_error(text).is_empty());
+            assert!(!error.message.is_empty() && !render_query_error(&error, text).is_empty());
             assert!(error.corrected_query(text).is_some() == error.suggestion.is_some());
         }
     }

@@ -273,7 +273,7 @@ fn errors_are_drawn_under_the_query() {
         ),
     ] {
         assert_eq!(
-            TokenQuery::parse_query(text).expect_err(text).render_query_error(text),
+            render_query_error(&TokenQuery::parse_query(text).expect_err(text), text),
             drawn
         );
     }
@@ -317,7 +317,7 @@ fn unknown_values_are_pointed_at() {
     let known = ["chest", "chin", "neutral space"];
     let error = unknown_value(comparison.values[0].at, "nutral space", known);
     assert_eq!(
-        error.render_query_error(text),
+        render_query_error(&error, text),
         "placement=nutral\n          ^^^^^^\nthe value \"nutral space\" is in no inventory; \
          did you mean \"neutral space\"?\nknown values: chest, chin, \"neutral space\""
     );

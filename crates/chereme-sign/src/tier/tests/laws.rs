@@ -174,7 +174,6 @@ proptest! {
                     TierEdit::Remove(id) => {
                         assert_eq!(after.annotations_below(*id).next(), None, "{change:?} leaves children of {id}");
                     }
-                    TierEdit::Vocabulary { .. } => {}
                 }
                 after.apply_edits([edit.clone()]);
             }

@@ -195,7 +195,6 @@ fn show_looped_motion(ui: &Ui, seen: &PaneInput<'_>, motion: Option<MiniatureMot
 #[cfg(test)]
 mod tests {
     use super::*;
-    use chereme_motion::RecordingInstant;
 
     #[test]
     fn figures_fill_the_width_and_are_large_enough() {
@@ -209,9 +208,7 @@ mod tests {
 
     #[test]
     fn a_recording_is_shown_by_its_first_sign() {
-        let span = |start, end| {
-            TimeSpan::span_between(RecordingInstant::from_micros(start), RecordingInstant::from_micros(end))
-        };
+        let span = |start, end| TimeSpan::from_span_micros(start, end);
         let sign = |gloss: &str, place| SignGlance {
             gloss: gloss.into(),
             place,

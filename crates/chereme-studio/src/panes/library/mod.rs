@@ -226,46 +226,47 @@ impl LibraryPane {
         }
     }
 
-    fn show_recording_rows(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
-        let rows = std::mem::take(&mut self.rows.recordings);
+    /// Lists `count` rows of one height, each drawn by `show`.
+    fn show_library_rows(&mut self, ui: &mut Ui, count: usize, mut show: impl FnMut(&mut Self, &mut Ui, usize, f32)) {
         let height = ui.spacing().interact_size.y * LIBRARY_ROW_HEIGHT;
-        self.take_library_keys(ui, rows.len());
+        self.take_library_keys(ui, count);
         let area = self.library_scroll_area(ui, height + ui.spacing().item_spacing.y);
-        let shown = area.show_rows(ui, height, rows.len(), |ui, range| {
+        let shown = area.show_rows(ui, height, count, |ui, range| {
             for at in range {
-                let row = &rows[at];
-                let chosen = seen.shown.recording == Some(row.id);
-                let lead = height - 4.0;
-                let response = super::list_row_at(ui, row_id(at), height, lead, chosen, &row.name, &row.about);
-                self.focus_library_row(ui, &response, at);
-                if row.moves {
-                    let motion = MiniatureMotion::Span(row.id, row.whole);
-                    show_row_figure(ui, seen, motion, &response, lead);
-                }
-                self.on_recording(seen, row, &response);
+                show(self, ui, at, height);
             }
         });
         self.scrolled = shown.state.clamped_offset().y;
+    }
+
+    fn show_recording_rows(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
+        let rows = std::mem::take(&mut self.rows.recordings);
+        self.show_library_rows(ui, rows.len(), |pane, ui, at, height| {
+            let row = &rows[at];
+            let chosen = seen.shown.recording == Some(row.id);
+            let lead = height - 4.0;
+            let response = super::list_row_at(ui, row_id(at), height, lead, chosen, &row.name, &row.about);
+            pane.focus_library_row(ui, &response, at);
+            if row.moves {
+                let motion = MiniatureMotion::Span(row.id, row.whole);
+                show_row_figure(ui, seen, motion, &response, lead);
+            }
+            pane.on_recording(seen, row, &response);
+        });
         self.rows.recordings = rows;
     }
 
     /// Lists the people; a click shows one in the inspector, with everything about them to change.
     fn show_person_rows(&mut self, ui: &mut Ui, out: &CommandOutbox) {
         let rows = std::mem::take(&mut self.rows.people);
-        let height = ui.spacing().interact_size.y * LIBRARY_ROW_HEIGHT;
-        self.take_library_keys(ui, rows.len());
-        let area = self.library_scroll_area(ui, height + ui.spacing().item_spacing.y);
-        let shown = area.show_rows(ui, height, rows.len(), |ui, range| {
-            for at in range {
-                let row = &rows[at];
-                let response = super::list_row_at(ui, row_id(at), height, 0.0, false, &row.name, &row.about);
-                self.focus_library_row(ui, &response, at);
-                if response.clicked() {
-                    out.send_command(WindowCommand::Inspect(InspectedThing::Signer(row.id)));
-                }
+        self.show_library_rows(ui, rows.len(), |pane, ui, at, height| {
+            let row = &rows[at];
+            let response = super::list_row_at(ui, row_id(at), height, 0.0, false, &row.name, &row.about);
+            pane.focus_library_row(ui, &response, at);
+            if response.clicked() {
+                out.send_command(WindowCommand::Inspect(InspectedThing::Signer(row.id)));
             }
         });
-        self.scrolled = shown.state.clamped_offset().y;
         self.rows.people = rows;
     }
 
@@ -298,15 +299,9 @@ impl LibraryPane {
 
     fn show_sign_rows(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         let rows = std::mem::take(&mut self.rows.signs);
-        let height = ui.spacing().interact_size.y * LIBRARY_ROW_HEIGHT;
-        self.take_library_keys(ui, rows.len());
-        let area = self.library_scroll_area(ui, height + ui.spacing().item_spacing.y);
-        let shown = area.show_rows(ui, height, rows.len(), |ui, range| {
-            for at in range {
-                self.show_one_sign_row(ui, seen, at, &rows[at], height);
-            }
+        self.show_library_rows(ui, rows.len(), |pane, ui, at, height| {
+            pane.show_one_sign_row(ui, seen, at, &rows[at], height);
         });
-        self.scrolled = shown.state.clamped_offset().y;
         self.rows.signs = rows;
     }
 

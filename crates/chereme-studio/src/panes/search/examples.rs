@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use chereme_corpus::ObjectDetails;
-use chereme_motion::{RecordingInstant, TimeSpan};
+use chereme_motion::TimeSpan;
 use chereme_sign::query::ExampleToken;
 
 use super::search_builder::{self, QueryCondition};
@@ -60,9 +60,11 @@ impl KnownExamples {
         if let Ok(WorkOutcome::Looked(details)) = ended
             && let ObjectDetails::Token(it) = &**details
         {
-            let span = it.row.start_us.zip(it.row.end_us).map(|(start, end)| {
-                TimeSpan::span_between(RecordingInstant::from_micros(start), RecordingInstant::from_micros(end))
-            });
+            let span = it
+                .row
+                .start_us
+                .zip(it.row.end_us)
+                .map(|(start, end)| TimeSpan::from_span_micros(start, end));
             token_facts.gloss.clone_from(&it.row.gloss);
             token_facts.place = it.row.recording_id.zip(span);
         }

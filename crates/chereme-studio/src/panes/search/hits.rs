@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use chereme_corpus::{HitOrder, QueryFinding, SearchAnswer, SearchHit, TokenNeighbours};
-use chereme_motion::{RecordingInstant, TimeSpan};
+use chereme_motion::TimeSpan;
 use chereme_sign::{ComponentField, SignComponent};
 use serde_json::Value;
 
@@ -158,7 +158,7 @@ impl QueryAnswer {
 /// Returns the place of a hit, as the recording's name and the span, if it was recorded.
 pub(crate) fn hit_recording_span(hit: &SearchHit) -> Option<(&str, TimeSpan)> {
     let (start, end) = hit.start_us.zip(hit.end_us)?;
-    let span = TimeSpan::span_between(RecordingInstant::from_micros(start), RecordingInstant::from_micros(end));
+    let span = TimeSpan::from_span_micros(start, end);
     Some((hit.recording.as_deref()?, span))
 }
 

@@ -110,10 +110,7 @@ impl OriginalMovements {
 /// Returns the index of the part whose time is nearest to `at`; the first of equally near ones.
 fn nearest_made_part<'a>(parts: impl Iterator<Item = &'a MadePart>, at: RecordingInstant) -> Option<usize> {
     let far = |part: &MadePart| {
-        let (start, end) = (
-            part.span.span_start_instant().instant_micros(),
-            part.span.span_end_instant().instant_micros(),
-        );
+        let (start, end) = part.span.span_bounds_micros();
         // The end is excluded from a span, so that a moment there is one microsecond away.
         (start - at.instant_micros()).max(at.instant_micros() - end + 1).max(0)
     };

@@ -291,10 +291,7 @@ impl TimelineDrawing<'_, '_> {
         let Some(span) = self.seen.shown.span.filter(|span| span.has_instant(here)) else {
             return self.show_gesture_hint(crate::words::shell::NEEDS_SELECTION);
         };
-        let wanted = (
-            span.span_start_instant().instant_micros(),
-            span.span_end_instant().instant_micros(),
-        );
+        let wanted = span.span_bounds_micros();
         match dragged::room_for_annotation(contents, tier, wanted) {
             Some(room) => self.begin_value(tier, room),
             None => self.show_gesture_hint(timeline_edit::no_room(tier)),

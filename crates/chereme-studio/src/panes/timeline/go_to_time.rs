@@ -24,10 +24,7 @@ pub(super) struct GoBox {
 fn parse_time_target(text: &str, now: i64, whole: TimeSpan, frames: Option<RecordingFrameTimes>) -> Option<i64> {
     // Commas are decimal points in German and French.
     let text = text.trim().to_lowercase().replace(',', ".");
-    let (from, end) = (
-        whole.span_start_instant().instant_micros(),
-        whole.span_end_instant().instant_micros(),
-    );
+    let (from, end) = whole.span_bounds_micros();
     if let Some(share) = text.strip_suffix('%') {
         let typed_share: f64 = share.trim().parse().ok()?;
         let share = Some(typed_share).filter(|share| (0.0..=100.0).contains(share))?;

@@ -186,10 +186,6 @@ fn climb(scene: &TimelineScene<'_>, by: isize) {
     }
 }
 
-fn selection_span_from_micros(from: i64, to: i64) -> TimeSpan {
-    TimeSpan::span_between(RecordingInstant::from_micros(from), RecordingInstant::from_micros(to))
-}
-
 /// With `starts`, selects from the playhead to the end of the selection or the recording; otherwise from the start of
 /// the selection or the recording to the playhead.
 fn select_to(scene: &TimelineScene<'_>, starts: bool) {
@@ -207,7 +203,7 @@ fn select_to(scene: &TimelineScene<'_>, starts: bool) {
         (start.unwrap_or(whole.span_start_instant().instant_micros()), at)
     };
     scene.seen.send_command(WindowCommand::Annotations(BTreeSet::new()));
-    let new = selection_span_from_micros(new.0, new.1);
+    let new = TimeSpan::from_span_micros(new.0, new.1);
     scene
         .seen
         .send_command(WindowCommand::Span(Some(new).filter(|span| !span.is_empty())));
@@ -217,17 +213,12 @@ fn select_to(scene: &TimelineScene<'_>, starts: bool) {
 /// neither end is there, a new selection begins at the playhead.
 pub(super) fn extended_time_selection(old: Option<TimeSpan>, playhead: i64, to: i64) -> Option<TimeSpan> {
     // The end that the playhead stands at moves, and the other one stays.
-    let anchor = match old.map(|span| {
-        (
-            span.span_start_instant().instant_micros(),
-            span.span_end_instant().instant_micros(),
-        )
-    }) {
+    let anchor = match old.map(|span| span.span_bounds_micros()) {
         Some((start, end)) if playhead == end => start,
         Some((start, end)) if playhead == start => end,
         _ => playhead,
     };
-    Some(selection_span_from_micros(anchor, to)).filter(|span| !span.is_empty())
+    Some(TimeSpan::from_span_micros(anchor, to)).filter(|span| !span.is_empty())
 }
 
 fn extend_selection_to(scene: &TimelineScene<'_>, to: i64) {
@@ -258,12 +249,8 @@ mod tests {
     #[test]
     fn the_selection_end_at_the_playhead_moves_with_it() {
         let at = |old: Option<(i64, i64)>, playhead, to| {
-            extended_time_selection(old.map(|it| selection_span_from_micros(it.0, it.1)), playhead, to).map(|it| {
-                (
-                    it.span_start_instant().instant_micros(),
-                    it.span_end_instant().instant_micros(),
-                )
-            })
+            extended_time_selection(old.map(|it| TimeSpan::from_span_micros(it.0, it.1)), playhead, to)
+                .map(|it| it.span_bounds_micros())
         };
         assert_eq!(at(None, 5, 9), Some((5, 9)));
         assert_eq!(at(Some((5, 9)), 9, 12), Some((5, 12)));

@@ -192,7 +192,7 @@ mod tests {
     }
 
     fn span(start: i64, end: i64) -> TimeSpan {
-        TimeSpan::span_between(RecordingInstant::from_micros(start), RecordingInstant::from_micros(end))
+        TimeSpan::from_span_micros(start, end)
     }
 
     #[test]

@@ -109,10 +109,7 @@ impl<'a> TimelineScene<'a> {
 
     fn selected_time_span(&self) -> Option<(i64, i64)> {
         let span = self.seen.shown.span?;
-        Some((
-            span.span_start_instant().instant_micros(),
-            span.span_end_instant().instant_micros(),
-        ))
+        Some(span.span_bounds_micros())
     }
 }
 

@@ -378,10 +378,7 @@ impl CurvePiece {
 
 /// Returns the time span in a window of that width, in microseconds.
 pub(super) fn visible_window_span(window: &TimeWindow, width: f32, whole: TimeSpan) -> (i64, i64) {
-    let (start, end) = (
-        whole.span_start_instant().instant_micros(),
-        whole.span_end_instant().instant_micros(),
-    );
+    let (start, end) = whole.span_bounds_micros();
     let clamped_time = |micros: f64| (micros as i64).clamp(start, end);
     (clamped_time(window.start), clamped_time(window.points_to_micros(width)))
 }

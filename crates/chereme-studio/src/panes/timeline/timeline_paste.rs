@@ -190,10 +190,7 @@ fn assign_spoken_values(
             let Some(span) = shown.span else {
                 return ActionOutcome::Cannot(shell::NEEDS_ANNOTATION);
             };
-            let wanted = (
-                span.span_start_instant().instant_micros(),
-                span.span_end_instant().instant_micros(),
-            );
+            let wanted = span.span_bounds_micros();
             return match dragged::room_for_annotation(scene.contents, tier, wanted) {
                 Some(span) => {
                     let (tier, value) = (tier.row.id, value.clone());

@@ -7,8 +7,8 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use super::{chosen, person, plan_of, rated, realism, trial};
-use crate::study::report::{GroupComparison, ReportOptions, TestName, make_study_report};
+use super::{chosen, make_study_report, person, plan_of, rated, realism, trial};
+use crate::study::report::{GroupComparison, ReportOptions, TestName};
 
 fn vectors() -> Option<Value> {
     let Some(folder) = std::env::var_os("CHEREME_SHARED_DATA") else {

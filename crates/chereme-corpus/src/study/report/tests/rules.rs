@@ -3,10 +3,8 @@
 use chereme_analysis::statistics::UndefinedStatistic;
 use serde_json::{Value, json};
 
-use super::{chosen, person, plan_of, rated, realism, trial};
-use crate::study::report::{
-    ExclusionReason, HypothesisVerdict, ReportOptions, StatsOutcome, TestName, VerdictReason, make_study_report,
-};
+use super::{chosen, make_study_report, person, plan_of, rated, realism, trial};
+use crate::study::report::{ExclusionReason, HypothesisVerdict, ReportOptions, StatsOutcome, TestName, VerdictReason};
 use crate::study::study_plan::ExclusionRule;
 use crate::words::InterfaceLanguage;
 

@@ -4,8 +4,8 @@ use chereme_analysis::random::RandomNumbers;
 use chereme_analysis::statistics::EquivalenceConclusion;
 use serde_json::{Value, json};
 
-use super::{person, plan_of, rated, realism, trial};
-use crate::study::report::{HypothesisVerdict, ReportOptions, StudyReport, VerdictReason, make_study_report};
+use super::{make_study_report, person, plan_of, rated, realism, trial};
+use crate::study::report::{HypothesisVerdict, ReportOptions, StudyReport, VerdictReason};
 use crate::study::study_answers::StudyParticipant;
 use crate::study::study_plan::StudyPlan;
 use crate::words::InterfaceLanguage;
