@@ -93,17 +93,17 @@ fn people_relate_signs_and_take_it_back() {
         2
     );
     assert_eq!(said(&corpus, "SHOP"), ["compound-of BOOK"]);
-    assert_eq!(change(&mut corpus, "variant", &[tree.clone()], add).expect("added"), 1);
+    assert_eq!(change(&mut corpus, "variant", std::slice::from_ref(&tree), add).expect("added"), 1);
     // From the other end it is the same.
     assert_eq!(
         corpus
-            .change_relations(&tree, "variant", &[book.clone()], add)
+            .change_relations(&tree, "variant", std::slice::from_ref(&book), add)
             .expect("asked"),
         0
     );
     assert_eq!(
         corpus
-            .change_relations(&tree, "variant", &[book.clone()], RelationChange::Remove)
+            .change_relations(&tree, "variant", std::slice::from_ref(&book), RelationChange::Remove)
             .expect("removed"),
         1
     );
@@ -114,7 +114,7 @@ fn people_relate_signs_and_take_it_back() {
         ("variant", &book),
         ("variant", &RowName::Text("NOBODY".into())),
     ] {
-        let error = change(&mut corpus, relation, &[others.clone()], add).expect_err("refused");
+        let error = change(&mut corpus, relation, std::slice::from_ref(others), add).expect_err("refused");
         assert!(error.error_remedy().is_some(), "{error}");
     }
     assert!(
