@@ -93,7 +93,10 @@ fn people_relate_signs_and_take_it_back() {
         2
     );
     assert_eq!(said(&corpus, "SHOP"), ["compound-of BOOK"]);
-    assert_eq!(change(&mut corpus, "variant", std::slice::from_ref(&tree), add).expect("added"), 1);
+    assert_eq!(
+        change(&mut corpus, "variant", std::slice::from_ref(&tree), add).expect("added"),
+        1
+    );
     // From the other end it is the same.
     assert_eq!(
         corpus
