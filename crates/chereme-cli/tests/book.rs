@@ -5,7 +5,7 @@
 //! any lines, and `…` within a line for any letters. A command that must fail ends in `# exit code 1`.
 //!
 //! Every chapter has a folder of its own. A chapter that names the folder `chereme-demo` and does not make it finds
-//! there what `chereme demo` writes.
+//! there the starter files and the corpus that `chereme demo` writes in the tutorial.
 
 mod book_calls;
 
@@ -13,14 +13,32 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use book_calls::{BookCall, chapter_calls, fenced_blocks};
+use book_calls::{chapter_calls, fenced_blocks};
 use chereme_tests::repository;
 
 /// Words that ask a reader to hear something.
 const WORDS_OF_HEARING: [&str; 16] = [
-    "audible", "deafening", "echo", "echoes", "hear", "heard", "hears", "listen", "listens", "loud", "loudly", "quiet",
-    "quietly", "silence", "silent", "silently",
+    "audible",
+    "deafening",
+    "echo",
+    "echoes",
+    "hear",
+    "heard",
+    "hears",
+    "listen",
+    "listens",
+    "loud",
+    "loudly",
+    "quiet",
+    "quietly",
+    "silence",
+    "silent",
+    "silently",
 ];
+
+/// The corpus that the tutorial leaves.
+#[cfg(unix)]
+const DEMO_CORPUS: &str = "chereme-demo/starter.chereme";
 
 /// A page of the book.
 struct Chapter {
@@ -71,7 +89,9 @@ fn prose_text(text: &str) -> String {
 fn link_targets(text: &str) -> Vec<String> {
     let prose = prose_text(text);
     let parts = prose.split("](").skip(1);
-    parts.filter_map(|part| Some(part.split_once(')')?.0.to_owned())).collect()
+    parts
+        .filter_map(|part| Some(part.split_once(')')?.0.to_owned()))
+        .collect()
 }
 
 /// Returns the name that mdBook and GitHub give a heading in addresses.
@@ -113,7 +133,10 @@ fn listed_commands(help: &str) -> Vec<String> {
     let lines = help.lines().skip_while(|line| *line != "Commands:").skip(1);
     let lines = lines.take_while(|line| !line.is_empty());
     let names = lines.filter_map(|line| line.strip_prefix("  ")?.split(' ').next());
-    names.filter(|name| !name.is_empty() && *name != "help").map(str::to_owned).collect()
+    names
+        .filter(|name| !name.is_empty() && *name != "help")
+        .map(str::to_owned)
+        .collect()
 }
 
 fn program_output(words: &[&str]) -> String {
@@ -177,8 +200,14 @@ fn the_reference_names_every_command_and_action() {
     let mut missing = Vec::new();
     for command in &commands {
         let help = program_output(&[command, "--help"]);
-        let actions = listed_commands(&help).into_iter().map(|action| format!("{command} {action}"));
-        missing.extend(std::iter::once(command.clone()).chain(actions).filter(|name| !named.contains(name)));
+        let actions = listed_commands(&help)
+            .into_iter()
+            .map(|action| format!("{command} {action}"));
+        missing.extend(
+            std::iter::once(command.clone())
+                .chain(actions)
+                .filter(|name| !named.contains(name)),
+        );
     }
     expect_none("commands that the reference does not name", &missing);
     let rows = table_rows(&page);
@@ -193,7 +222,8 @@ fn the_reference_names_every_operator_of_recipes() {
     let operators = help.lines().skip_while(|line| !line.starts_with("Operators:")).skip(1);
     let operators: BTreeSet<&str> = operators
         .take_while(|line| !line.is_empty())
-        .filter_map(|line| line.trim_start().split(' ').next())
+        .filter_map(|line| line.strip_prefix("  ")?.split(' ').next())
+        .filter(|name| !name.is_empty())
         .collect();
     assert!(operators.len() > 10, "{operators:?}");
     let page = chapter_text("reference/recipes.md");
@@ -207,38 +237,49 @@ fn the_reference_names_every_operator_of_recipes() {
     expect_none("operators that the reference does not name", &missing);
 }
 
-/// Runs the queries and recipes of the tables in the reference on the corpus of the demo.
+/// Runs the program in the folder, and returns whether it did its work, and what it printed.
 #[cfg(unix)]
-fn table_faults(folder: &Path) -> Vec<String> {
-    let mut faults = Vec::new();
-    let corpus = "chereme-demo/starter.chereme";
-    let output = |words: &[&str]| {
-        let mut command = book_calls::program_command("chereme", folder);
-        let output = command.args(words).output().expect("the program runs");
-        let text = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);
-        (output.status.success(), text.into_owned())
-    };
-    let mut queries = 0;
+fn program_answer(folder: &Path, words: &[&str]) -> (bool, String) {
+    let mut command = book_calls::program_command("chereme", folder);
+    let output = command.args(words).output().expect("the program runs");
+    let text = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);
+    (output.status.success(), text.into_owned())
+}
+
+/// Asks the queries in the tables of the reference, and returns those that find another number of tokens.
+#[cfg(unix)]
+fn query_faults(folder: &Path) -> Vec<String> {
+    let (mut queries, mut faults) = (0, Vec::new());
     for cells in table_rows(&chapter_text("reference/query-language.md")) {
-        let (Some(query), Some(Ok(total))) = (code_words(&cells[0]).pop(), cells.last().map(|it| it.parse::<u64>()))
-        else {
+        let total = cells.last().and_then(|cell| cell.parse::<u64>().ok());
+        let (Some(query), Some(total)) = (code_words(&cells[0]).pop(), total) else {
             continue;
         };
         queries += 1;
-        let (_, text) = output(&["search", corpus, &query, "--limit", "1", "--json"]);
+        let words = ["search", DEMO_CORPUS, &query, "--limit", "1", "--json"];
+        let (_, text) = program_answer(folder, &words);
         let answer: serde_json::Value = serde_json::from_str(&text).unwrap_or_default();
         if answer["total"].as_u64() != Some(total) {
-            faults.push(format!("reference/query-language.md: {query} finds {}", answer["total"]));
+            faults.push(format!(
+                "reference/query-language.md: {query} finds {}: {text}",
+                answer["total"]
+            ));
         }
     }
     assert!(queries > 20, "{queries} queries");
-    let mut recipes = 0;
+    faults
+}
+
+/// Evaluates the recipes in the tables of the reference, and returns those that fail.
+#[cfg(unix)]
+fn recipe_faults(folder: &Path) -> Vec<String> {
+    let (mut recipes, mut faults) = (0, Vec::new());
     for cells in table_rows(&chapter_text("reference/recipes.md")) {
         let Some(recipe) = cells.get(1).and_then(|cell| code_words(cell).pop()) else {
             continue;
         };
         recipes += 1;
-        let (done, text) = output(&["recombine", corpus, &recipe, "--explain"]);
+        let (done, text) = program_answer(folder, &["recombine", DEMO_CORPUS, &recipe, "--explain"]);
         if !done {
             faults.push(format!("reference/recipes.md: {recipe}: {text}"));
         }
@@ -251,25 +292,31 @@ fn table_faults(folder: &Path) -> Vec<String> {
 #[test]
 fn every_command_does_what_its_chapter_shows() {
     use std::sync::Mutex;
+    type BookWork<'a> = Box<dyn FnOnce() -> Vec<String> + Send + 'a>;
     let demo = tempfile::tempdir().expect("a folder");
-    let made = book_calls::program_command("chereme", demo.path()).arg("demo").output().expect("the demo runs");
-    assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
-    let mut waiting: Vec<(String, Vec<BookCall>)> = Vec::new();
-    for chapter in book_chapters() {
-        let calls = chapter_calls(&chapter.text);
-        if !calls.is_empty() {
-            waiting.push((chapter.name, calls));
+    let (mut tutorial, mut waiting, mut total) = (Vec::new(), Vec::<BookWork<'_>>::new(), 0);
+    for Chapter { name, text } in book_chapters() {
+        let calls = chapter_calls(&text);
+        total += calls.len();
+        if book_calls::makes_demo(&calls) {
+            // The other chapters begin with the folder that the tutorial leaves.
+            tutorial.extend(book_calls::run_calls(&name, &calls, demo.path()));
+        } else {
+            let demo = demo.path();
+            waiting.push(Box::new(move || book_calls::run_chapter(&name, &calls, demo)));
         }
     }
-    let total: usize = waiting.iter().map(|(_, calls)| calls.len()).sum();
-    assert!(total > 100, "{total} commands");
-    let waiting = Mutex::new(waiting);
-    let faults = Mutex::new(table_faults(demo.path()));
+    println!("{total} commands");
+    assert!(total > 200, "{total} commands");
+    assert!(demo.path().join(DEMO_CORPUS).exists(), "{}", tutorial.join("\n"));
+    waiting.push(Box::new(|| query_faults(demo.path())));
+    waiting.push(Box::new(|| recipe_faults(demo.path())));
+    let (waiting, faults) = (Mutex::new(waiting), Mutex::new(tutorial));
     let work = || {
         loop {
             let next = waiting.lock().expect("a list").pop();
-            let Some((name, calls)) = next else { break };
-            let found = book_calls::run_chapter(&name, &calls, demo.path());
+            let Some(run) = next else { break };
+            let found = run();
             faults.lock().expect("a list").extend(found);
         }
     };
@@ -282,7 +329,8 @@ fn every_command_does_what_its_chapter_shows() {
 
 #[test]
 fn blocks_are_read_as_commands_and_output() {
-    let page = "Text.\n\n```console\n$ chereme info a\none …\n…\n$ false # exit code 1\n```\n\n```sh\na=1\ntest $a = 1\n```\n";
+    let page =
+        "Text.\n\n```console\n$ chereme info a\none …\n…\n$ false # exit code 1\n```\n\n```sh\na=1\ntest $a = 1\n```\n";
     let calls = chapter_calls(page);
     assert_eq!(calls.len(), 3);
     assert_eq!((calls[0].line, calls[0].script.as_str()), (4, "chereme info a"));

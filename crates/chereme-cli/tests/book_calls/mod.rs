@@ -1,5 +1,7 @@
 //! The commands of a chapter, and what they print.
 
+#[cfg(unix)]
+use std::fs;
 use std::path::Path;
 use std::process::Command;
 
@@ -64,7 +66,9 @@ fn console_calls(block: &FencedBlock) -> Vec<BookCall> {
             calls.push(BookCall::of_script(block.line + at, command.to_owned()));
             continue;
         }
-        let call = calls.last_mut().expect("a block of the kind console begins with a command");
+        let call = calls
+            .last_mut()
+            .expect("a block of the kind console begins with a command");
         match line.strip_prefix("> ") {
             Some(more) if call.shown.is_empty() => call.script = format!("{}\n{more}", call.script),
             _ => call.shown.push(line.trim_end().to_owned()),
@@ -78,7 +82,12 @@ impl BookCall {
         let code = script.rsplit_once("# exit code ");
         let exit_code = code.map_or(0, |(_, code)| code.trim().parse().expect("a code"));
         let shown = Vec::new();
-        Self { line, script, exit_code, shown }
+        Self {
+            line,
+            script,
+            exit_code,
+            shown,
+        }
     }
 
     /// Returns whether the output is the one that the chapter shows, if it shows any.
@@ -134,28 +143,47 @@ pub(crate) fn program_command(program: &str, folder: &Path) -> Command {
     command
 }
 
-/// Runs the calls of a chapter one after another in a fresh folder, and returns what differs from the page.
+/// Returns whether the calls make the folder of the demo themselves.
+#[cfg(unix)]
+pub(crate) fn makes_demo(calls: &[BookCall]) -> bool {
+    calls.iter().any(|call| call.script.starts_with("chereme demo"))
+}
+
+/// Runs the calls of a chapter in a fresh folder, with the demo's corpus and files if the chapter names them.
 #[cfg(unix)]
 pub(crate) fn run_chapter(name: &str, calls: &[BookCall], demo: &Path) -> Vec<String> {
     let folder = tempfile::tempdir().expect("a folder");
-    let makes_demo = calls.iter().any(|call| call.script.starts_with("chereme demo"));
-    if !makes_demo && calls.iter().any(|call| call.script.contains("chereme-demo")) {
-        let copied = Command::new("cp").arg("-r").arg(demo.join("chereme-demo")).arg(folder.path()).status();
-        assert!(copied.is_ok_and(|status| status.success()), "the demo is copied");
+    if calls.iter().any(|call| call.script.contains("chereme-demo")) {
+        let (from, to) = (demo.join("chereme-demo"), folder.path().join("chereme-demo"));
+        fs::create_dir_all(to.join("starter")).expect("a folder");
+        fs::copy(from.join("starter.chereme"), to.join("starter.chereme")).expect("copied");
+        for file in fs::read_dir(from.join("starter")).expect("the starter files").flatten() {
+            fs::copy(file.path(), to.join("starter").join(file.file_name())).expect("copied");
+        }
     }
+    run_calls(name, calls, folder.path())
+}
+
+/// Runs the calls of a chapter one after another in the folder, and returns what differs from the page.
+#[cfg(unix)]
+pub(crate) fn run_calls(name: &str, calls: &[BookCall], folder: &Path) -> Vec<String> {
     let mut faults = Vec::new();
     for call in calls {
-        let mut command = program_command("sh", folder.path());
-        let output = command.arg("-c").arg(format!("exec 2>&1\nset -e\n{}", call.script)).output().expect("a shell");
+        let mut command = program_command("sh", folder);
+        let script = format!("exec 2>&1\nset -e\n{}", call.script);
+        let output = command.args(["-c", &script]).output().expect("a shell");
         let text = String::from_utf8_lossy(&output.stdout);
         let code = output.status.code().unwrap_or(-1);
         // Python and other programs that a chapter shows are not part of Chereme, and may be missing.
-        let missing = code == 127 && !call.script.contains("chereme ");
-        if missing {
+        let is_missing = code == 127 && !call.script.starts_with("chereme ");
+        if is_missing {
             println!("{name}:{}: skipped: {text}", call.line);
         } else if code != call.exit_code || !call.fits(&text) {
             let script = &call.script;
-            faults.push(format!("{name}:{}: {script}\nexit code {code}, printed:\n{text}", call.line));
+            faults.push(format!(
+                "{name}:{}: {script}\nexit code {code}, printed:\n{text}",
+                call.line
+            ));
         }
     }
     faults
