@@ -334,7 +334,7 @@ fn blocks_are_read_as_commands_and_output() {
     let calls = chapter_calls(page);
     assert_eq!(calls.len(), 3);
     assert_eq!((calls[0].line, calls[0].script.as_str()), (4, "chereme info a"));
-    assert!(calls[0].fits("one fish\ntwo\nthree\n") && calls[0].fits("one \n"));
+    assert!(calls[0].fits("one fish\ntwo\nthree\n") && calls[0].fits("one bird\n"));
     assert!(!calls[0].fits("two fish\n"));
     assert_eq!(calls[1].exit_code, 1);
     assert_eq!(calls[2].script, "a=1\ntest $a = 1");
