@@ -324,7 +324,15 @@ fn every_command_does_what_its_chapter_shows() {
         scope.spawn(work);
         scope.spawn(work);
     });
-    expect_none("the book and the program differ", &faults.into_inner().expect("a list"));
+    let mut faults = faults.into_inner().expect("a list");
+    faults.retain(|fault| {
+        let is_skipped = fault.starts_with(book_calls::SKIPPED);
+        if is_skipped {
+            println!("{fault}");
+        }
+        !is_skipped
+    });
+    expect_none("the book and the program differ", &faults);
 }
 
 #[test]

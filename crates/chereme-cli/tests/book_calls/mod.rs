@@ -5,6 +5,10 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
+/// The beginning of a line about a call whose program is missing on this machine.
+#[cfg(unix)]
+pub(crate) const SKIPPED: &str = "skipped: ";
+
 /// A fenced block.
 pub(crate) struct FencedBlock {
     /// The line of the page on which its contents begin, counted from 1.
@@ -164,7 +168,8 @@ pub(crate) fn run_chapter(name: &str, calls: &[BookCall], demo: &Path) -> Vec<St
     run_calls(name, calls, folder.path())
 }
 
-/// Runs the calls of a chapter one after another in the folder, and returns what differs from the page.
+/// Runs the calls of a chapter one after another in the folder, and returns what differs from the page, and those that
+/// were skipped.
 #[cfg(unix)]
 pub(crate) fn run_calls(name: &str, calls: &[BookCall], folder: &Path) -> Vec<String> {
     let mut faults = Vec::new();
@@ -177,7 +182,7 @@ pub(crate) fn run_calls(name: &str, calls: &[BookCall], folder: &Path) -> Vec<St
         // Python and other programs that a chapter shows are not part of Chereme, and may be missing.
         let is_missing = code == 127 && !call.script.starts_with("chereme ");
         if is_missing {
-            println!("{name}:{}: skipped: {text}", call.line);
+            faults.push(format!("{SKIPPED}{name}:{}: {text}", call.line));
         } else if code != call.exit_code || !call.fits(&text) {
             let script = &call.script;
             faults.push(format!(
