@@ -14,6 +14,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use book_calls::{chapter_calls, fenced_blocks};
+#[cfg(unix)]
+use chereme_corpus::{Corpus, SearchOptions};
 use chereme_tests::repository;
 
 /// Words that ask a reader to hear something.
@@ -237,33 +239,21 @@ fn the_reference_names_every_operator_of_recipes() {
     expect_none("operators that the reference does not name", &missing);
 }
 
-/// Runs the program in the folder, and returns whether it did its work, and what it printed.
-#[cfg(unix)]
-fn program_answer(folder: &Path, words: &[&str]) -> (bool, String) {
-    let mut command = book_calls::program_command("chereme", folder);
-    let output = command.args(words).output().expect("the program runs");
-    let text = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);
-    (output.status.success(), text.into_owned())
-}
-
 /// Asks the queries in the tables of the reference, and returns those that find another number of tokens.
 #[cfg(unix)]
 fn query_faults(folder: &Path) -> Vec<String> {
+    let mut corpus = Corpus::open_corpus(&folder.join(DEMO_CORPUS), "reader").expect("the corpus of the demo");
+    let options = SearchOptions::default();
     let (mut queries, mut faults) = (0, Vec::new());
     for cells in table_rows(&chapter_text("reference/query-language.md")) {
-        let total = cells.last().and_then(|cell| cell.parse::<u64>().ok());
+        let total = cells.last().and_then(|cell| cell.parse::<usize>().ok());
         let (Some(query), Some(total)) = (code_words(&cells[0]).pop(), total) else {
             continue;
         };
         queries += 1;
-        let words = ["search", DEMO_CORPUS, &query, "--limit", "1", "--json"];
-        let (_, text) = program_answer(folder, &words);
-        let answer: serde_json::Value = serde_json::from_str(&text).unwrap_or_default();
-        if answer["total"].as_u64() != Some(total) {
-            faults.push(format!(
-                "reference/query-language.md: {query} finds {}: {text}",
-                answer["total"]
-            ));
+        let found = corpus.search_tokens(&query, &options).map(|answer| answer.total);
+        if !found.as_ref().is_ok_and(|found| *found == total) {
+            faults.push(format!("reference/query-language.md: {query} finds {found:?}"));
         }
     }
     assert!(queries > 20, "{queries} queries");
@@ -279,8 +269,11 @@ fn recipe_faults(folder: &Path) -> Vec<String> {
             continue;
         };
         recipes += 1;
-        let (done, text) = program_answer(folder, &["recombine", DEMO_CORPUS, &recipe, "--explain"]);
-        if !done {
+        let mut command = book_calls::program_command("chereme", folder);
+        let words = ["recombine", DEMO_CORPUS, &recipe];
+        let output = command.args(words).output().expect("the program runs");
+        if !output.status.success() {
+            let text = String::from_utf8_lossy(&output.stderr);
             faults.push(format!("reference/recipes.md: {recipe}: {text}"));
         }
     }
