@@ -289,13 +289,15 @@ fn every_command_does_what_its_chapter_shows() {
     let demo = tempfile::tempdir().expect("a folder");
     let (mut tutorial, mut waiting, mut total) = (Vec::new(), Vec::<BookWork<'_>>::new(), 0);
     for Chapter { name, text } in book_chapters() {
-        let calls = chapter_calls(&text);
+        let mut calls = chapter_calls(&text);
         total += calls.len();
-        if book_calls::makes_demo(&calls) {
-            // The other chapters begin with the folder that the tutorial leaves.
-            tutorial.extend(book_calls::run_calls(&name, &calls, demo.path()));
+        let demo = demo.path();
+        if let Some(at) = book_calls::demo_call(&calls) {
+            // The other chapters begin with the folder that this call makes.
+            let rest = calls.split_off(at + 1);
+            tutorial.extend(book_calls::run_calls(&name, &calls, demo));
+            waiting.push(Box::new(move || book_calls::run_calls(&name, &rest, demo)));
         } else {
-            let demo = demo.path();
             waiting.push(Box::new(move || book_calls::run_chapter(&name, &calls, demo)));
         }
     }

@@ -147,10 +147,10 @@ pub(crate) fn program_command(program: &str, folder: &Path) -> Command {
     command
 }
 
-/// Returns whether the calls make the folder of the demo themselves.
+/// Returns the position of the call that makes the folder of the demo, if there is one.
 #[cfg(unix)]
-pub(crate) fn makes_demo(calls: &[BookCall]) -> bool {
-    calls.iter().any(|call| call.script.starts_with("chereme demo"))
+pub(crate) fn demo_call(calls: &[BookCall]) -> Option<usize> {
+    calls.iter().position(|call| call.script == "chereme demo")
 }
 
 /// Runs the calls of a chapter in a fresh folder, with the demo's corpus and files if the chapter names them.
