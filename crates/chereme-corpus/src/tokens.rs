@@ -5,6 +5,7 @@ mod counted_reading;
 use std::collections::BTreeMap;
 
 use chereme_motion::TimeSpan;
+use chereme_sign::text::fold_text;
 use chereme_sign::tier::AnnotatedHands;
 use chereme_sign::token::{ComponentSpan, owning_token_index};
 use chereme_sign::{ComponentField, ComponentReading, HandRef, SignComponent, SignPhase, SignerHandedness};
@@ -37,7 +38,10 @@ impl Corpus {
         let name = name.unwrap_or_default();
         self.store.run_store_operation(|connection| {
             let names = search_answers::annotator_names(connection)?;
-            if !name.is_empty() && !names.iter().any(|known| known == name) {
+            let folded = fold_text(name.trim());
+            let known = names.iter().find(|known| fold_text(known) == folded);
+            let name = known.map_or(name, String::as_str);
+            if !name.is_empty() && known.is_none() {
                 let there_are = match names.as_slice() {
                     [] => "no tier of this corpus names an annotator".to_owned(),
                     names => format!("there are: {}", names.join(", ")),

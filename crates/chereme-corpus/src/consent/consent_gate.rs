@@ -63,6 +63,8 @@ pub(super) struct StatedAudience {
     is_doubted: bool,
     /// The recording whose movement it shows, if that allows less.
     narrowed_by: Option<i64>,
+    /// The person because of whom the audience may not see it.
+    refused_by: Option<i64>,
 }
 
 /// A contributor because of whom something is withheld, and the reason.
@@ -70,11 +72,15 @@ pub(super) struct StatedAudience {
 pub(super) struct WithheldSource {
     pub(super) recording: i64,
     pub(super) reason: WithheldReason,
+    /// The person whom the recording shows and who did not agree, if it is a person.
+    pub(super) person: Option<i64>,
 }
 
 /// The permissions of a corpus, read at one moment.
 pub(crate) struct PublishPermissions {
     recordings: BTreeMap<i64, RecordingRow>,
+    /// The names of people.
+    people: BTreeMap<i64, String>,
     /// What is stated about each recording, by kind.
     stated: BTreeMap<i64, [StatedAudience; 3]>,
     /// The recordings that a generated one takes movement from; `None` if one of them is gone or not known.
@@ -144,6 +150,7 @@ impl PublishPermissions {
         }
         let mut permissions = Self {
             recordings: BTreeMap::new(),
+            people: signers.iter().map(|(id, (name, _))| (*id, name.clone())).collect(),
             stated: BTreeMap::new(),
             inputs,
             kept_sources: BTreeMap::new(),
@@ -181,9 +188,16 @@ impl PublishPermissions {
                 .collect();
             let stated = ConsentKind::ALL_CONSENT_KINDS.map(|kind| {
                 let is_doubted = doubts.contains(&("recording", row.id, kind));
-                let mut people = people.iter().flatten();
+                let mut named = people.iter().flatten();
+                let allows = |person: &i64| signers.get(person)?.1.audience_of_kind(kind);
+                let refuses = |person: &&i64| allows(person).is_some_and(|allowed| allowed < audience);
+                let says_nothing = |person: &&i64| allows(person).is_none();
+                let mut refused_by = people.iter().flatten().find(refuses);
+                // A refusal is stronger than a missing statement.
+                refused_by = refused_by.or_else(|| people.iter().flatten().find(says_nothing));
                 StatedAudience {
-                    is_doubted: is_doubted || people.any(|person| doubts.contains(&("signer", *person, kind))),
+                    refused_by: refused_by.copied(),
+                    is_doubted: is_doubted || named.any(|person| doubts.contains(&("signer", *person, kind))),
                     ..state_audience(own_consent, &each, shows, kind)
                 }
             });
@@ -368,6 +382,7 @@ impl PublishPermissions {
             let withheld = |reason| WithheldSource {
                 recording: contributor,
                 reason,
+                person: None,
             };
             let row = self.recordings.get(&contributor);
             let row = row.ok_or_else(|| withheld(WithheldReason::InputGone))?;
@@ -384,12 +399,14 @@ impl PublishPermissions {
             }
             // A recording made from others shows a derived sign, and nothing that was recorded.
             let kind = if from_others { ConsentKind::Derived } else { kind };
-            self.may_be_seen(contributor, kind).map_err(|reason| WithheldSource {
-                recording: self
-                    .stated_audience(contributor, kind)
-                    .narrowed_by
-                    .unwrap_or(contributor),
-                reason,
+            self.may_be_seen(contributor, kind).map_err(|reason| {
+                let narrowed_by = self.stated_audience(contributor, kind).narrowed_by;
+                let recording = narrowed_by.unwrap_or(contributor);
+                WithheldSource {
+                    recording,
+                    reason,
+                    person: self.stated_audience(recording, kind).refused_by,
+                }
             })?;
             match licence {
                 Some(licence) => {
@@ -489,13 +506,18 @@ impl PublishPermissions {
         }
     }
 
-    /// Returns the name of a recording and of its signer; the recording's own if nobody is named.
-    pub(super) fn recording_and_signer(&self, recording: i64) -> [String; 2] {
-        let Some(row) = self.recordings.get(&recording) else {
-            return ["".to_owned(), "".to_owned()];
-        };
-        let signer = row.signer.as_ref().unwrap_or(&row.name);
-        [row.name.clone(), signer.clone()]
+    /// Returns the name of a recording.
+    pub(super) fn recording_name(&self, recording: i64) -> String {
+        let row = self.recordings.get(&recording);
+        row.map(|row| row.name.clone()).unwrap_or_default()
+    }
+
+    /// Returns the name of the person because of whom something is withheld; that of the recording if nobody is named.
+    pub(super) fn withheld_because_of(&self, withheld: &WithheldSource) -> String {
+        let person = withheld.person.and_then(|person| self.people.get(&person));
+        let row = self.recordings.get(&withheld.recording);
+        let name = person.or_else(|| row.map(|row| row.signer.as_ref().unwrap_or(&row.name)));
+        name.cloned().unwrap_or_default()
     }
 
     /// Returns all recordings.
@@ -538,6 +560,7 @@ pub(super) fn state_audience(
         is_incomplete,
         is_doubted: false,
         narrowed_by: None,
+        refused_by: None,
     }
 }
 

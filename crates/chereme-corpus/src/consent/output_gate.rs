@@ -113,11 +113,9 @@ impl OutputGate {
     fn not_agreed(&self, recording: i64, kinds: &[ConsentKind]) -> Option<WithheldOutput> {
         let refused = |kind: &ConsentKind| self.permissions.contributed_terms(recording, *kind).err();
         let withheld = kinds.iter().find_map(refused)?;
-        let [name, _] = self.permissions.recording_and_signer(recording);
-        let [_, who] = self.permissions.recording_and_signer(withheld.recording);
         Some(WithheldOutput {
-            name,
-            who,
+            name: self.permissions.recording_name(recording),
+            who: self.permissions.withheld_because_of(&withheld),
             why: withheld.reason,
         })
     }

@@ -326,6 +326,18 @@ fn a_participant_in_other_letters_is_the_same_person() {
     });
     store.expect("changed");
     assert_eq!(verdicts(&mine)[0], Err(WithheldReason::NotPublic));
+    // Whoever refused is named, and not the signer, who agreed.
+    let cleo = RecordingChange {
+        signer: Some(Some("Cleo".into())),
+        ..RecordingChange::default()
+    };
+    mine.change_recording(&name, &cleo).expect("changed");
+    say(&mut mine, "signer:Cleo", &all(ConsentAudience::Public));
+    let connection = mine.store.read_connection();
+    let gate = OutputGate::open_output_gate(connection, OutputAudience::Public).expect("open");
+    let recording = crate::db::stored_recordings::recording_named(connection, "escargot").expect("read");
+    let withheld = gate.withheld_output(recording.expect("there").id, &[ConsentKind::Movement]);
+    assert_eq!(withheld.expect("withheld").who, "Ada");
 }
 
 #[test]
