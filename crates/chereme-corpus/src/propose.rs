@@ -696,6 +696,7 @@ impl Corpus {
                 tier: name.clone(),
             };
             let stored = self.stored_tier_times(&recording, &name)?;
+            let row = crate::address::find_recording_by_name(self.store.read_connection(), &recording)?;
             if stored.is_none() {
                 let role = TierRole::Component { component, feature };
                 let mut new = NewTier::new(recording, name, role);
@@ -711,7 +712,8 @@ impl Corpus {
                 let after = taken.iter().map(|(other_start, _)| *other_start);
                 let end = after
                     .filter(|other| *other > value.start_us)
-                    .fold(value.end_us, i64::min);
+                    // The last frame of a hold may end a little after the recording.
+                    .fold(value.end_us.min(row.duration_us), i64::min);
                 if start >= end {
                     continue;
                 }

@@ -38,9 +38,15 @@ pub(super) fn report_known_movement_pieces(
             true => (found.take, new[&piece]),
             false => (piece, new[&found.take]),
         };
-        let Some(take) = rows.iter().find(|row| row.id == known) else {
+        let row_of = |id: i64| rows.iter().find(|row| row.id == id);
+        let own = row_of(if is_piece { piece } else { found.take });
+        let Some(take) = row_of(known) else {
             continue;
         };
+        // Of one signer, the consents are one already.
+        if take.signer_id.is_some() && own.is_some_and(|own| own.signer_id == take.signer_id) {
+            continue;
+        }
         let (start, end) = (found.span.span_start_instant(), found.span.span_end_instant());
         let (name, signer) = (&take.name, take.signer.as_deref().unwrap_or("-"));
         let message = match is_piece {
